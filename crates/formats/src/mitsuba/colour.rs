@@ -4,7 +4,7 @@
 use super::attribute::Attributes;
 use super::number;
 use super::reader::Reader;
-use super::upgrade::{self, Version};
+use super::version::{Version, is_old};
 use etalon_math::float64;
 use etalon_params::{DVec3, Diagnostic, SpectrumText, Value};
 use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, Spectrum};
@@ -17,7 +17,7 @@ pub(crate) fn rgb(
     version: Version,
 ) -> Option<DVec3> {
     let value = attributes.required("value");
-    let old = upgrade::is_old(version);
+    let old = is_old(version);
     if let Some(colour) = hexadecimal(&value.text).filter(|_| old) {
         reader.report(
             Diagnostic::note(
@@ -87,7 +87,7 @@ pub(crate) fn spectrum_without_wavelengths(
     if count == 1 && illuminant {
         return attributes.float(reader, "value").map(Value::Float);
     }
-    if count != 3 || !upgrade::is_old(version) {
+    if count != 3 || !is_old(version) {
         return None;
     }
     let numbers = attributes.list(reader, "value", &[3])?;

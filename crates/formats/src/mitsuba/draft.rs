@@ -1,7 +1,7 @@
 //! The objects of a scene while its files are still being read: references are names, and
 //! objects are numbers in one list.
 
-use super::animation::Animation;
+use super::animation::{Animation, Moments};
 use etalon_params::{Class, Span, Spanned, Value};
 use std::collections::HashMap;
 
@@ -50,4 +50,25 @@ pub(crate) struct Draft {
     pub(crate) ids: HashMap<String, (ObjectId, Span)>,
     /// `<alias>`es: the new name and the name of its source, each with its position.
     pub(crate) aliases: Vec<(Spanned<String>, Spanned<String>)>,
+}
+
+impl Draft {
+    /// The moments of a frame that is seen by the first sensor.
+    pub(crate) fn moments(&self, frame: f64) -> Moments {
+        let sensor = self.objects.iter().find(|o| o.class == Class::Sensor);
+        let number = |name: &str| {
+            let property = sensor?.properties.iter().find(|p| p.name == name)?;
+            match property.value {
+                DraftValue::Plain(Value::Float(x)) => Some(x),
+                DraftValue::Plain(Value::Integer(i)) => Some(i as f64),
+                _ => None,
+            }
+        };
+        let open = number("shutter_open").unwrap_or(0.0);
+        let close = number("shutter_close").unwrap_or(0.0).max(open);
+        Moments {
+            frame,
+            middle: frame + 0.5 * (open + close),
+        }
+    }
 }

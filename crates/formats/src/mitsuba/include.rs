@@ -9,7 +9,7 @@ use super::number::excerpt;
 use super::object::object;
 use super::reader::{File, MOST_FILES, Reader};
 use super::tags::Tag;
-use super::{SourceFile, decoded, markup, syntax, upgrade};
+use super::{SourceFile, decoded, markup, syntax, version};
 use crate::SearchPath;
 use etalon_params::{Class, Diagnostic, FileId, Span};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -40,7 +40,7 @@ pub(crate) fn include(
     node: Node<'_, '_>,
     level: usize,
 ) {
-    super::property::no_children(reader, file, node);
+    super::value::no_children(reader, file, node);
     let accepted = Tag::Include.attributes();
     let Some(attributes) = Attributes::read(reader, file.id, node, accepted) else {
         return;
@@ -199,7 +199,7 @@ fn root(
         }
     };
     let version = version(reader, id, node);
-    if upgrade::is_old(version) {
+    if version::is_old(version) {
         reader.old_files.push(id);
     }
     let mut file = File {
@@ -216,9 +216,9 @@ fn root(
 }
 
 /// The version of a file. The first ones wrote none, and named things as no later one does.
-fn version(reader: &mut Reader<'_>, file: FileId, node: Node<'_, '_>) -> upgrade::Version {
-    const CURRENT: upgrade::Version = [3, 0, 0];
-    const FIRST: upgrade::Version = [0, 2, 0];
+fn version(reader: &mut Reader<'_>, file: FileId, node: Node<'_, '_>) -> version::Version {
+    const CURRENT: version::Version = [3, 0, 0];
+    const FIRST: version::Version = [0, 2, 0];
     let Some(attribute) = node.attribute_node("version") else {
         let is_first = node
             .children()
@@ -236,7 +236,7 @@ fn version(reader: &mut Reader<'_>, file: FileId, node: Node<'_, '_>) -> upgrade
         );
         return version;
     };
-    upgrade::version(attribute.value()).unwrap_or_else(|| {
+    version::version(attribute.value()).unwrap_or_else(|| {
         let range = attribute.range_value();
         let span = Span {
             file,

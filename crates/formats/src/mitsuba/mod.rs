@@ -7,6 +7,7 @@
 //! after a mistake, so that one run reports all of them.
 
 mod animation;
+mod animation_key;
 mod attribute;
 mod colour;
 mod decoded;
@@ -17,6 +18,7 @@ mod markup;
 mod mitsuba06;
 mod number;
 mod object;
+mod operation;
 mod property;
 mod reader;
 mod references;
@@ -26,6 +28,8 @@ mod syntax;
 mod tags;
 mod transform;
 mod upgrade;
+mod value;
+mod version;
 
 use crate::SearchPath;
 use etalon_params::{Diagnostic, Node, Severity, Sources, Span};

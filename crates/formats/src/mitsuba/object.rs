@@ -3,9 +3,11 @@
 use super::attribute::{Attributes, tag_span};
 use super::draft::{DraftObject, DraftProperty, DraftValue, ObjectId};
 use super::number::excerpt;
-use super::property::{no_children, property};
+use super::property::property;
 use super::reader::{File, MOST_LEVELS, Reader};
 use super::tags::{TAGS, Tag};
+use super::value::no_children;
+use super::version::is_old;
 use super::{include, upgrade};
 use etalon_params::{Class, Diagnostic, Span, Spanned};
 use roxmltree::Node;
@@ -105,7 +107,7 @@ fn register(reader: &mut Reader<'_>, id: &str, span: Span, object: ObjectId) {
 
 /// Upgrades an object of an old file and reports names given twice.
 fn finish(reader: &mut Reader<'_>, file: &File, object: ObjectId) {
-    if upgrade::is_old(file.version) {
+    if is_old(file.version) {
         let object = &mut reader.draft.objects[object];
         if let Some(diagnostic) = upgrade::upgrade(object, file.version) {
             reader.report(diagnostic);

@@ -3,7 +3,7 @@
 use super::draft::Draft;
 use super::number::excerpt;
 use super::substitute::{LONGEST_VALUE, MOST_INSERTED, Parameters, Substituted, Trouble};
-use super::upgrade::Version;
+use super::version::Version;
 use super::{ReadOptions, SourceFile};
 use crate::SearchPath;
 use etalon_params::{Diagnostic, FileId, Severity, Sources, Span};

@@ -199,7 +199,7 @@ fn check_size(reader: &mut Reader<'_>, order: &[ObjectId]) -> bool {
 
 /// Makes the shared nodes, in the order given; the last one is the root.
 pub(crate) fn build(reader: &mut Reader<'_>, order: &[ObjectId]) -> Option<Arc<Node>> {
-    let moments = Moments::of(&reader.draft, reader.options.time);
+    let moments = reader.draft.moments(reader.options.time);
     let mut built: Vec<Option<Arc<Node>>> = vec![None; reader.draft.objects.len()];
     let mut root = None;
     for &id in order {

@@ -12,25 +12,9 @@
 use super::animation::Animation;
 use super::draft::{DraftObject, DraftProperty, DraftValue};
 use super::mitsuba06;
+use super::version::{Version, is_ancient};
 use etalon_params::{Class, DMat4, DVec3, Diagnostic, Value};
 use glam::DMat3;
-
-/// The version of a scene file.
-pub(crate) type Version = [u32; 3];
-
-/// A version as the files write it: up to three numbers with points between them.
-pub(crate) fn version(text: &str) -> Option<Version> {
-    let mut version = [0; 3];
-    for (place, number) in text.trim().split('.').enumerate() {
-        *version.get_mut(place)? = number.parse().ok()?;
-    }
-    Some(version)
-}
-
-/// Whether the names of a file have to be upgraded.
-pub(crate) fn is_old(version: Version) -> bool {
-    version < [2, 0, 0]
-}
 
 /// `toWorld` → `to_world`, `intIOR` → `int_ior`.
 pub fn underscored(name: &str) -> String {
@@ -86,11 +70,6 @@ const PARAMETERS: [(Class, &str, &str, &str); 13] = [
     (Class::Shape, "cylinder", "p1", "p0"),
     (Class::Shape, "cylinder", "p2", "p1"),
 ];
-
-/// Whether a file is of a version before 0.4.
-pub(crate) fn is_ancient(version: Version) -> bool {
-    version < [0, 4, 0]
-}
 
 /// What a tag of an old file is called today.
 pub(crate) fn tag(version: Version, name: &str) -> &str {
@@ -212,17 +191,5 @@ mod tests {
         ] {
             assert_eq!(underscored(old), new);
         }
-    }
-
-    #[test]
-    fn versions_are_up_to_three_numbers() {
-        assert_eq!(version("3.0.0"), Some([3, 0, 0]));
-        assert_eq!(version("0.6.0"), Some([0, 6, 0]));
-        assert_eq!(version("0.5"), Some([0, 5, 0]));
-        assert_eq!(version("3"), Some([3, 0, 0]));
-        for text in ["", "3.", "3.0.0.0", "x", "3.-1.0"] {
-            assert_eq!(version(text), None, "{text}");
-        }
-        assert!(is_old([1, 9, 9]) && !is_old([2, 0, 0]));
     }
 }
