@@ -1,6 +1,7 @@
 //! The bootstrap of a replicate: brightness, seeds, and probabilities of path kinds.
 
-use super::contributions::{Contribution, Contributions, FilmRegion};
+use super::contributions::{Contribution, Contributions};
+use super::film_region::FilmRegion;
 use super::importance_map::ImportanceMap;
 use super::primary::PrimarySample;
 use super::{ChainSettings, Integrand};

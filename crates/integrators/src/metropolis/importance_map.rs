@@ -6,7 +6,7 @@
 //! error (the two stages of Veach 1997, section 11.5.2). The estimate is unbiased for any positive
 //! factors.
 
-use super::contributions::FilmRegion;
+use super::film_region::FilmRegion;
 use glam::{UVec2, Vec2};
 
 /// Most cells along a side of the film.

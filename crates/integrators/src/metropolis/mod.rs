@@ -45,6 +45,7 @@
 mod bootstrap;
 mod chain;
 mod contributions;
+mod film_region;
 mod importance_map;
 mod integrator;
 pub mod mmlt;
@@ -55,7 +56,8 @@ mod tests;
 
 pub use bootstrap::BootstrapState;
 pub(crate) use bootstrap::PathLengthPdf;
-pub(crate) use contributions::{Contributions, FilmRegion};
+pub(crate) use contributions::Contributions;
+pub(crate) use film_region::FilmRegion;
 pub use integrator::Metropolis;
 pub(crate) use integrator::PathSampler;
 

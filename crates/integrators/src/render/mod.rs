@@ -8,11 +8,13 @@
 //! and the rounds change no bit, and a render can resume at any sample.
 
 pub(crate) mod positions;
+mod progress;
 mod render_plan;
 mod replicate_range;
 mod rounds;
 pub mod signature;
 
+pub use progress::Progress;
 pub use render_plan::RenderPlan;
 pub use replicate_range::ReplicateRange;
 
@@ -48,22 +50,6 @@ pub struct RenderStatistics {
     pub rays: u64,
     /// Remarks of the estimator on its first preparation, see [`Integrator::remarks`].
     pub remarks: Vec<String>,
-}
-
-/// Watches a render.
-pub trait Progress: Sync {
-    /// A tile is done, with so many samples.
-    fn tile_done(&self, samples: u64);
-    /// Whether to stop, as soon as the samples are finished that have been begun.
-    fn cancelled(&self) -> bool;
-}
-
-/// A watcher that does not care.
-impl Progress for () {
-    fn tile_done(&self, _: u64) {}
-    fn cancelled(&self) -> bool {
-        false
-    }
 }
 
 /// The side of a tile (pixels) where so many threads share a picture of this size.

@@ -1,6 +1,6 @@
 //! Positions of samples on the film, also for preparations: stratification, and the border pixels around the film.
 
-use crate::render::Progress;
+use crate::render::progress::Progress;
 use etalon_sampling::{SampleId, SamplerKind, stratified_pair};
 use etalon_transport::{Film, FilmSample, Pass, Placing};
 use glam::{UVec2, Vec2};

@@ -14,8 +14,10 @@
 //! Photons share the wavelengths of the integrator, so that each packet of four has a part of them for itself. A photon goes every way that
 //! the recursion would go with the probability that it has as a share of the light there, and is absorbed with the rest.
 
+use super::Continuation;
+use super::onward::onward;
+use super::packet::{Packet, SETS};
 use super::surface::{Surface, SurfaceBySet};
-use super::tree::{Continuation, Packet, SETS, onward};
 use crate::photons::kdtree::Neighbour;
 use crate::photons::kernel::{Kernel, KernelLookup};
 use crate::photons::radius::{ANYWHERE, from_pixels, held};

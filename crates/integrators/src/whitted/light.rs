@@ -1,7 +1,7 @@
 //! Direct light.
 
+use super::packet::{Packet, SETS};
 use super::surface::{Surface, SurfaceBySet};
-use super::tree::{Packet, SETS};
 use super::{Falloff, Whitted};
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;

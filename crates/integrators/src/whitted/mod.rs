@@ -32,7 +32,10 @@
 //! [`QuadratureNode`]: etalon_spectrum::QuadratureNode
 
 mod caustics;
+mod continuation;
 mod light;
+mod onward;
+mod packet;
 mod phong;
 mod pixel;
 mod points;
@@ -42,6 +45,7 @@ mod tree;
 use crate::photons::{radius, read_count, read_nearest};
 pub use caustics::CausticSettings;
 use caustics::Caustics;
+pub use continuation::Continuation;
 use etalon_params::Params;
 use etalon_sampling::Sampler;
 use etalon_transport::{
@@ -49,13 +53,14 @@ use etalon_transport::{
     Subject, TileSink, World,
 };
 use glam::{UVec2, Vec4};
+pub use onward::onward;
+use packet::Packet;
 pub use pixel::Grid;
 pub use points::{Placement, PointSet};
 use std::cell::RefCell;
 use std::sync::OnceLock;
 use std::vec::Drain;
-pub use tree::{Continuation, onward};
-use tree::{Packet, Tree};
+use tree::Tree;
 
 /// The fall-off of lights without extent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -261,7 +266,7 @@ impl Integrator for Whitted {
         if let Some(before) = before.filter(|_| self.caustics.photons == 0) {
             return before;
         }
-        let packets = tree::packets(world, self.wavelengths / 4);
+        let packets = packet::packets(world, self.wavelengths / 4);
         let settings = (self.caustics, self.max_depth);
         let caustics = Caustics::shoot(world, placing, pass, &packets, settings);
         Picture::blank(pass, packets, caustics)

@@ -1,6 +1,6 @@
 //! The classic Phong material: shading by a lamp, and secondary rays.
 
-use super::tree::Continuation;
+use super::Continuation;
 use etalon_math::float;
 use etalon_transport::{LegacyPhong, SurfaceInteraction};
 use glam::{Vec3, Vec4};

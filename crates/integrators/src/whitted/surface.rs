@@ -1,7 +1,7 @@
 //! The material at a surface: classic Phong, or a BSDF.
 
+use super::packet::{Packet, SETS};
 use super::phong;
-use super::tree::{Packet, SETS};
 use etalon_transport::{
     Bsdf, BsdfOf, LegacyPhong, SurfaceInteraction, Surfaces, TransportMode, World,
 };

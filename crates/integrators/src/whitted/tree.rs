@@ -4,83 +4,18 @@
 //! then every wavelength continues alone.
 
 use super::caustics::Caustics;
-use super::{Whitted, phong, surface};
+use super::onward::onward;
+use super::packet::{Packet, SETS};
+use super::{Whitted, surface};
 use crate::photons::kdtree::Neighbour;
-use crate::photons::sets::WavelengthChoice;
 use crate::steps::arrival::next_surface;
 use etalon_sampling::Sampler;
-use etalon_spectrum::{QuadratureNode, SensorWeights, Wavelengths};
+use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Camera, Lights, Ray, Sensor, SurfaceInteraction, Surfaces, TransportMode, World,
+    Bsdf, Camera, Lights, Ray, SurfaceInteraction, Surfaces, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::cell::RefCell;
-
-/// The most packets.
-pub(super) const SETS: usize = super::MOST_WAVELENGTHS as usize / 4;
-
-/// Four wavelengths on their way.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Packet {
-    pub(super) wavelengths: Wavelengths,
-    pub(super) response: SensorWeights,
-    /// The weight of radiance, per lane.
-    pub(super) weight: Vec4,
-    /// Index of the packet, and its first lane.
-    pub(super) lanes: WavelengthChoice,
-}
-
-impl Packet {
-    /// The packet in which lane `k` chooses, and is alone.
-    fn alone(&self, k: usize) -> Self {
-        let lane = |channel: Vec4| Vec4::X * channel[k];
-        let SensorWeights { r, g, b } = self.response;
-        Self {
-            response: SensorWeights {
-                r: lane(r),
-                g: lane(g),
-                b: lane(b),
-            },
-            weight: Vec4::X * self.weight[k],
-            wavelengths: self.wavelengths.rotated(k),
-            lanes: WavelengthChoice {
-                first: (self.lanes.first + k) % 4,
-                ..self.lanes
-            },
-        }
-    }
-}
-
-/// The packets of `count` nodes, at most [`SETS`].
-pub(super) fn packets<W: World>(world: &W, count: u32) -> Vec<Packet> {
-    let nodes = QuadratureNode::all(
-        count,
-        |u| world.sensor().wavelengths(u),
-        |w| world.sensor().weights(w),
-    );
-    let weight = Vec4::splat(1.0 / (4 * count) as f32);
-    (nodes.zip(0..))
-        .map(|(node, set)| Packet {
-            wavelengths: node.wavelengths,
-            response: node.response,
-            weight,
-            lanes: WavelengthChoice { set, first: 0 },
-        })
-        .collect()
-}
-
-/// A ray that leaves a surface in a direction of its own.
-#[derive(Clone, Copy, Debug)]
-pub struct Continuation {
-    /// Its direction.
-    pub wi: Vec3,
-    /// The weight of the radiance along it, per lane; zero for lanes with another direction than lane 0.
-    pub value: Vec4,
-    /// Zero for lanes that go elsewhere, or nowhere.
-    pub together: Vec4,
-    /// Whether it is the null interaction.
-    pub is_straight: bool,
-}
 
 /// The environment of a tree of rays.
 pub(super) struct Tree<'a, W> {
@@ -258,25 +193,4 @@ impl Whitted {
         }
         1.0 - open
     }
-}
-
-/// The secondary ray number `index` of a surface of any material; `None` beyond the last. `mode` is the transported quantity:
-/// radiance along view rays, importance along photons.
-pub fn onward<W: World>(
-    world: &W,
-    vertex: &SurfaceInteraction,
-    wo: Vec3,
-    (wavelengths, mode): (&Wavelengths, TransportMode),
-    index: u32,
-) -> Option<Continuation> {
-    if let Some(material) = world.surfaces().legacy_phong(vertex, wo, wavelengths) {
-        return phong::onward(&material, vertex, wo, index);
-    }
-    let sample = (world.surfaces().bsdf(vertex, wo, wavelengths)).discrete(wo, index, mode)?;
-    Some(Continuation {
-        wi: sample.wi,
-        value: sample.value,
-        together: sample.chance.lanes(),
-        is_straight: sample.is_null,
-    })
 }
