@@ -10,8 +10,8 @@
 //!
 //! Quantities that are not given follow from the others; those that are given redundantly must agree.
 
+use etalon_params::field_of_view::{half_width_from_params, half_width_of_fov};
 use etalon_params::{Params, Value};
-use etalon_transport::{half_width_from_params, half_width_of_fov};
 
 /// The quantities of a lens that a camera needs.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,7 +14,7 @@
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
 use etalon_params::Params;
-use etalon_transport::half_width_from_params;
+use etalon_params::field_of_view::half_width_from_params;
 use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 

@@ -86,6 +86,12 @@ impl FilmSettings {
             && crop.cmple(whole - offset).all()
     }
 
+    /// The films that a scene can ask for.
+    pub const PLUGINS: [&str; 2] = ["hdrfilm", "specfilm"];
+
+    /// Films of Mitsuba 0.6 that store the same picture in other ways, read as an `hdrfilm`.
+    pub const OTHER_PLUGINS: [&str; 3] = ["ldrfilm", "mfilm", "tiledhdrfilm"];
+
     /// Reads an `hdrfilm` with Mitsuba's names and defaults; mistakes go to
     /// `params.diagnostics`. Calling `finish` on `params` is left to the caller.
     ///

@@ -15,10 +15,11 @@ use crate::{BoundingSphere, LightExtent};
 use core::f32::consts::PI;
 use etalon_math::{Animated, DirectionCone};
 use etalon_params::Params;
+use etalon_params::field_of_view::half_width_from_params;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Build, Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, SpectrumKind, TextureId,
-    TexturePoint, Textures, half_width_from_params,
+    TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 

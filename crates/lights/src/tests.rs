@@ -7,8 +7,8 @@ use etalon_sampling::{Independent, Sampler};
 use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
     AssetError, Assets, Build, InstanceId, LightId, LightSampleContext, MaterialId, MeshData,
-    MeshFormat, SampledPoint, ShapeId, Shapes, SpectrumKind, SurfaceInteraction, SurfacePoint,
-    TextureId, TexturePoint, Textures,
+    MeshFormat, SampledPoint, ShapeId, Shapes, Shutter, SpectrumKind, SurfaceInteraction,
+    SurfacePoint, TextureId, TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
@@ -82,6 +82,10 @@ impl Build for SmallWorld {
         self
     }
 
+    fn shutter(&self) -> Shutter {
+        Shutter::default()
+    }
+
     fn texture(
         &mut self,
         params: &Params<'_>,
@@ -108,12 +112,26 @@ impl Build for SmallWorld {
         TextureId(self.patterns.len() as u32 - 1)
     }
 
+    fn volume(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        role: SpectrumKind,
+    ) -> TextureId {
+        self.texture(params, name, default, role)
+    }
+
     fn nested_texture(&mut self, _: &Arc<Node>, _: SpectrumKind) -> TextureId {
         TextureId::NONE
     }
 
     fn varies(&self, plugin: &str) -> bool {
         matches!(plugin, "bitmap" | "checkerboard")
+    }
+
+    fn resolution(&self, _: TextureId) -> [u32; 2] {
+        [1; 2]
     }
 
     fn spectrum(&mut self, spectrum: Spectrum) -> TextureId {

@@ -8,6 +8,7 @@
 //! number (Descartes's rule of signs in this basis; J. Lane, R. Riesenfeld 1981, *Bounds on a polynomial*). With none
 //! there is no zero, with one exactly one; otherwise the interval is halved (P. de Casteljau 1959).
 
+use crate::bracket::Bracket;
 use core::ops::ControlFlow;
 
 /// C(n, i).
@@ -135,7 +136,7 @@ fn refine<const N: usize>(b: &[f64; N]) -> f64 {
     let first_half = (middle < 0.0) != before;
     let c: [f64; N] = core::array::from_fn(|i| scaled[if first_half { i } else { N - 1 - i }]);
     let negative = c[0] < 0.0;
-    let (mut low, mut high) = (0.0, 1.0);
+    let mut bracket = Bracket::new(0.0, 1.0);
     // The zero of the chord between the ends.
     let (mut x, mut last_step) = (c[0] / (c[0] - middle), 1.0);
     for _ in 0..80 {
@@ -144,22 +145,13 @@ fn refine<const N: usize>(b: &[f64; N]) -> f64 {
             slope = slope.mul_add(x, value);
             value = value.mul_add(x, *c);
         }
-        if (value < 0.0) == negative {
-            low = x;
-        } else {
-            high = x;
-        }
+        bracket.cut(x, (value < 0.0) != negative);
         let step = value / slope;
         // Near the zero steps shrink quadratically until only rounding is left, which never ends and may lie outside.
         if step.abs() <= 2e-16 || (step.abs() <= 1e-10 && step.abs() > 0.25 * last_step) {
             break;
         }
-        let newton = x - step;
-        let next = if newton > low && newton < high {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
+        let next = bracket.within(x - step);
         last_step = (next - x).abs();
         x = next;
     }

@@ -5,6 +5,7 @@
 
 pub mod animated;
 pub mod bernstein;
+pub mod bracket;
 pub mod cone;
 pub mod cross;
 pub mod density;
@@ -24,6 +25,7 @@ mod swept;
 pub mod transform;
 
 pub use animated::{Animated, FromAffine};
+pub use bracket::Bracket;
 pub use cone::DirectionCone;
 pub use cross::{cross, difference_of_products};
 pub use density::{Area, DeltaProbability, Density, Length, Measure, SolidAngle};

@@ -1,5 +1,7 @@
 //! Real roots of polynomials in double precision.
 
+use crate::bracket::Bracket;
+
 /// The real roots of a·t² + b·t + c = 0 in ascending order, without the cancellation of the
 /// schoolbook formula (Press et al. 2007, section 5.6). `None` if there is no real root or the
 /// equation has no unknown; a linear equation gives its one root twice.
@@ -57,25 +59,17 @@ fn polynomial(c: &[f64], t: f64) -> f64 {
 
 /// The root of a polynomial that is monotone from `low` to `high` and changes its sign there: Newton's steps, and
 /// halving where they leave the bracket.
-fn bracketed(c: &[f64], derivative: &[f64], [mut low, mut high]: [f64; 2]) -> f64 {
+fn bracketed(c: &[f64], derivative: &[f64], [low, high]: [f64; 2]) -> f64 {
     let rising = polynomial(c, high) > polynomial(c, low);
-    let mut t = 0.5 * (low + high);
+    let mut bracket = Bracket::new(low, high);
+    let mut t = bracket.middle();
     for _ in 0..100 {
         let value = polynomial(c, t);
         if value == 0.0 {
             return t;
         }
-        if (value > 0.0) == rising {
-            high = t;
-        } else {
-            low = t;
-        }
-        let step = t - value / polynomial(derivative, t);
-        let next = if step > low && step < high {
-            step
-        } else {
-            0.5 * (low + high)
-        };
+        bracket.cut(t, (value > 0.0) == rising);
+        let next = bracket.within(t - value / polynomial(derivative, t));
         if next == t || (next - t).abs() <= 1e-15 * t.abs() {
             return next;
         }

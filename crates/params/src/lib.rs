@@ -8,6 +8,7 @@
 
 pub mod diagnostic;
 mod expression;
+pub mod field_of_view;
 pub mod ignored;
 pub mod node;
 pub mod params;

@@ -286,9 +286,6 @@ fn sensor(node: &Node, framing: &Framing, builder: &mut Builder<'_>) -> Option<D
     })
 }
 
-/// Films of Mitsuba 0.6 that store the same picture in other ways.
-const OTHER_FILMS: [&str; 3] = ["ldrfilm", "mfilm", "tiledhdrfilm"];
-
 /// The film of a sensor, by default Mitsuba's `hdrfilm`.
 fn film(sensor: &Params<'_>, builder: &mut Builder<'_>) -> Option<(FilmSettings, Response)> {
     let (mut film, response) = match sensor.child(Class::Film) {
@@ -326,7 +323,7 @@ fn read_filter(node: &Node, diagnostics: &Diagnostics) -> Filter {
 fn read_film(node: &Node, builder: &mut Builder<'_>) -> Option<(FilmSettings, Response)> {
     let diagnostics = builder.diagnostics;
     let name = node.plugin.value.as_str();
-    if OTHER_FILMS.contains(&name) {
+    if FilmSettings::OTHER_PLUGINS.contains(&name) {
         diagnostics.push(
             Diagnostic::note(
                 node.plugin.span,
@@ -334,8 +331,8 @@ fn read_film(node: &Node, builder: &mut Builder<'_>) -> Option<(FilmSettings, Re
             )
             .help("`etalon convert` makes a picture for the screen of it"),
         );
-    } else if !["hdrfilm", "specfilm"].contains(&name) {
-        diagnostics.push(plugins::not_built(node, ["hdrfilm", "specfilm"]));
+    } else if !FilmSettings::PLUGINS.contains(&name) {
+        diagnostics.push(plugins::not_built(node, FilmSettings::PLUGINS));
         return None;
     }
     let params = Params::new(node, diagnostics);

@@ -1,5 +1,8 @@
 //! Services for plugins while they are built from their descriptions.
 
+pub mod file;
+pub mod uniformity;
+
 use crate::{Assets, Shutter, TextureId};
 use etalon_params::{Node, Params};
 use std::sync::Arc;
@@ -25,10 +28,8 @@ pub trait Build {
     /// The files of the scene.
     fn assets(&self) -> &dyn Assets;
 
-    /// The interval during which things move. A scene in which nothing does keeps this.
-    fn shutter(&self) -> Shutter {
-        Shutter::default()
-    }
+    /// The interval during which things move.
+    fn shutter(&self) -> Shutter;
 
     /// The texture or spectrum in the property `name`; the constant `default` if the property is
     /// absent; a diagnostic if it is absent and there is no default. After a mistake, any valid
@@ -48,9 +49,7 @@ pub trait Build {
         name: &str,
         default: Option<f64>,
         role: SpectrumKind,
-    ) -> TextureId {
-        self.texture(params, name, default, role)
-    }
+    ) -> TextureId;
 
     /// The texture described by a nested texture or spectrum object.
     fn nested_texture(&mut self, node: &Arc<Node>, role: SpectrumKind) -> TextureId;
@@ -59,9 +58,7 @@ pub trait Build {
     fn varies(&self, plugin: &str) -> bool;
 
     /// Pixels of a texture that is an image, width and height; 1 × 1 of anything else.
-    fn resolution(&self, _texture: TextureId) -> [u32; 2] {
-        [1; 2]
-    }
+    fn resolution(&self, texture: TextureId) -> [u32; 2];
 
     /// A texture for a spectrum computed by the plugin itself (a named metal's η).
     fn spectrum(&mut self, spectrum: etalon_spectrum::Spectrum) -> TextureId;

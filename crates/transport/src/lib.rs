@@ -13,8 +13,6 @@ pub mod bsdf;
 pub mod build;
 pub mod camera;
 pub mod diffusion;
-pub mod field_of_view;
-pub mod file;
 pub mod film;
 pub mod ids;
 pub mod integrator;
@@ -32,15 +30,14 @@ pub mod shapes;
 pub mod shutter;
 pub mod surface_interaction;
 pub mod textures;
-pub mod uniformity;
 pub mod world;
 
 pub use assets::{AssetError, Assets, MeshFormat};
 pub use bsdf::{Bsdf, BsdfSample, TransportMode};
-pub use build::{Build, SpectrumKind};
+pub use build::uniformity::{is_varying, refuse_varying};
+pub use build::{Build, SpectrumKind, file};
 pub use camera::{ApertureHit, Camera, CameraRay, CameraSample};
 pub use diffusion::{DiffusionProfile, NoProfile};
-pub use field_of_view::{half_width_from_params, half_width_of_fov};
 pub use film::{Channel, Film, FilmSample, Placing, Sink, TileSink};
 pub use ids::{InstanceId, LightId, MaterialId, MediumId, ShapeId, TextureId};
 pub use integrator::{Integrator, Pass, PixelSample, SampleJob};
@@ -60,7 +57,6 @@ pub use shapes::{SampledPoint, Shapes, SurfacePoint};
 pub use shutter::Shutter;
 pub use surface_interaction::{Hit, SurfaceInteraction};
 pub use textures::{TexturePoint, Textures, gradient_by_differences};
-pub use uniformity::{is_varying, refuse_varying};
 pub use world::{
     BsdfOf, Lights, Media, MediumOf, NoMedia, Sensor, ShadowQuery, Surfaces, Transmission, World,
 };

@@ -7,7 +7,7 @@ use etalon_params::{Diagnostic, Diagnostics, Node, Params, Severity, SpectrumTex
 use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
     AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, ShapeId,
-    SpectrumKind, SurfaceInteraction, TextureId, TexturePoint, Textures,
+    Shutter, SpectrumKind, SurfaceInteraction, TextureId, TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -82,6 +82,10 @@ impl Build for Scene {
         &self.files
     }
 
+    fn shutter(&self) -> Shutter {
+        Shutter::default()
+    }
+
     fn texture(
         &mut self,
         params: &Params<'_>,
@@ -105,6 +109,16 @@ impl Build for Scene {
         self.spectrum(spectrum.expect("a valid spectrum"))
     }
 
+    fn volume(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        role: SpectrumKind,
+    ) -> TextureId {
+        self.texture(params, name, default, role)
+    }
+
     fn nested_texture(&mut self, node: &Arc<Node>, _: SpectrumKind) -> TextureId {
         match node.properties.first().map(|p| &p.value) {
             Some(Value::Spectrum(SpectrumText::Samples(samples))) => {
@@ -118,6 +132,10 @@ impl Build for Scene {
 
     fn varies(&self, _: &str) -> bool {
         false
+    }
+
+    fn resolution(&self, _: TextureId) -> [u32; 2] {
+        [1; 2]
     }
 
     fn spectrum(&mut self, spectrum: Spectrum) -> TextureId {

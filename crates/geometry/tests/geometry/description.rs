@@ -7,7 +7,7 @@ use etalon_params::{
 };
 use etalon_transport::{
     AssetError, Assets, Build, LightSampleContext, MeshData, MeshFormat, Ray, ShapeId, Shapes,
-    SpectrumKind, TextureId,
+    Shutter, SpectrumKind, TextureId,
 };
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
@@ -125,14 +125,32 @@ impl Build for Scene {
     fn assets(&self) -> &dyn Assets {
         &Files
     }
+
+    fn shutter(&self) -> Shutter {
+        Shutter::default()
+    }
     fn texture(&mut self, _: &Params<'_>, _: &str, _: Option<f64>, _: SpectrumKind) -> TextureId {
         TextureId::NONE
     }
+    fn volume(
+        &mut self,
+        params: &Params<'_>,
+        name: &str,
+        default: Option<f64>,
+        role: SpectrumKind,
+    ) -> TextureId {
+        self.texture(params, name, default, role)
+    }
+
     fn nested_texture(&mut self, _: &Arc<Node>, _: SpectrumKind) -> TextureId {
         TextureId::NONE
     }
     fn varies(&self, _: &str) -> bool {
         false
+    }
+
+    fn resolution(&self, _: TextureId) -> [u32; 2] {
+        [1; 2]
     }
 
     fn spectrum(&mut self, _: etalon_spectrum::Spectrum) -> TextureId {

@@ -8,6 +8,7 @@
 //! density per area is constant under any map of the surface. In each of [`CELLS`]² cells J is a polynomial, cubic in u
 //! and in v, through its values at Gauss points, which also give its integrals.
 
+use etalon_math::Bracket;
 use glam::DVec2;
 
 /// Cells along u and along v.
@@ -55,22 +56,13 @@ fn cubic(values: [f64; GAUSS.len()]) -> [f64; GAUSS.len()] {
 
 /// The point in [0, 1] up to which the integral of a positive cubic is `target`.
 fn inverse(target: f64, [c0, c1, c2, c3]: [f64; GAUSS.len()]) -> f64 {
-    let [mut low, mut high] = [0.0, 1.0];
-    let mut x = 0.5;
+    let mut bracket = Bracket::new(0.0, 1.0);
+    let mut x = bracket.middle();
     for _ in 0..40 {
         let slope = ((c3 * x + c2) * x + c1) * x + c0;
         let off = (((c3 / 4.0 * x + c2 / 3.0) * x + c1 / 2.0) * x + c0) * x - target;
-        if off > 0.0 {
-            high = x;
-        } else {
-            low = x;
-        }
-        let next = x - off / slope;
-        let next = if next > low && next < high {
-            next
-        } else {
-            0.5 * (low + high)
-        };
+        bracket.cut(x, off > 0.0);
+        let next = bracket.within(x - off / slope);
         if (next - x).abs() < 1e-10 {
             return next;
         }

@@ -7,6 +7,7 @@
 //! Each cubic piece is cut into [`CELLS`] cells, each integrated by Gauss's rule of five points.
 
 use crate::shapes::profile::cubic::Cubic;
+use etalon_math::Bracket;
 use glam::DVec2;
 
 /// Cells of a piece.
@@ -69,22 +70,12 @@ impl Lengths {
         let before = if cell > 0 { self.upto[cell - 1] } else { 0.0 };
         let piece = &pieces[cell / CELLS];
         let first = (cell % CELLS) as f64 / CELLS as f64;
-        let [mut low, mut high] = [first, first + 1.0 / CELLS as f64];
-        let mut s = 0.5 * (low + high);
-        // Newton's method between bounds.
+        let mut bracket = Bracket::new(first, first + 1.0 / CELLS as f64);
+        let mut s = bracket.middle();
         for _ in 0..40 {
             let off = before + self.between(piece, first, s) - wanted;
-            if off > 0.0 {
-                high = s;
-            } else {
-                low = s;
-            }
-            let next = s - off / self.density(piece, s);
-            let next = if next > low && next < high {
-                next
-            } else {
-                0.5 * (low + high)
-            };
+            bracket.cut(s, off > 0.0);
+            let next = bracket.within(s - off / self.density(piece, s));
             if (next - s).abs() < 1e-12 {
                 break;
             }

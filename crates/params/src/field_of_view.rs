@@ -1,7 +1,7 @@
 //! `fov` and `focal_length` of cameras and projectors.
 
+use crate::{Diagnostic, Params};
 use etalon_math::float64::tan;
-use etalon_params::{Diagnostic, Params};
 
 /// 36 mm × 24 mm film, whose diagonal the focal length refers to.
 const FULL_FRAME_DIAGONAL_MM: f64 = 43.266_615_305_567_875;
