@@ -18,8 +18,8 @@ use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemi
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Incompatibility, Integrator, Pass, PixelSample, Placing, Ray, SceneCapabilities, Sink,
-    SurfaceInteraction, Surfaces, World,
+    Bsdf, Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, Ray, SceneCapabilities,
+    Sink, SurfaceInteraction, Surfaces, World, one_by_one,
 };
 use glam::Vec3;
 
@@ -124,15 +124,32 @@ impl AmbientOcclusion {
 }
 
 impl Integrator for AmbientOcclusion {
+    const UNBIASED: bool = false;
+    const MEDIA: bool = false;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = false;
+
     type State = ();
 
-    fn replicate_kind(&self) -> ReplicateKind {
-        ReplicateKind::Blocks
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
     }
 
     /// It needs no light.
     fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
         Vec::new()
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -155,4 +172,6 @@ impl Integrator for AmbientOcclusion {
             None => sink.radiance([0.0; 3], 0.0),
         }
     }
+
+    one_by_one!();
 }

@@ -29,7 +29,7 @@ use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::QuadratureNode;
 use etalon_transport::{
     Bsdf, Camera, Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, Ray,
-    SceneCapabilities, Sink, SurfaceInteraction, Surfaces, World,
+    SceneCapabilities, Sink, SurfaceInteraction, Surfaces, World, one_by_one,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::LazyLock;
@@ -164,20 +164,13 @@ impl Aov {
 }
 
 impl Integrator for Aov {
+    const UNBIASED: bool = false;
     /// Its nested integrators decide.
     const MEDIA: bool = true;
     const DIFFUSION: bool = true;
+    const FOLLOWS_LIGHT: bool = false;
 
     type State = ();
-
-    fn replicate_kind(&self) -> ReplicateKind {
-        Nested::replicate_kind(&self.nested)
-    }
-
-    /// Those of the integrators inside.
-    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
-        Nested::incompatibilities(&self.nested, capabilities)
-    }
 
     fn channels(&self) -> Vec<Channel> {
         let mut names = Vec::new();
@@ -199,6 +192,23 @@ impl Integrator for Aov {
             );
         }
         names.into_iter().map(Channel).collect()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
+
+    /// Those of the integrators inside.
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        Nested::incompatibilities(&self.nested, capabilities)
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        Nested::replicate_kind(&self.nested)
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -241,6 +251,8 @@ impl Integrator for Aov {
             }
         }
     }
+
+    one_by_one!();
 }
 
 fn evaluate<W: World, S: Sampler>(

@@ -12,8 +12,8 @@
 use crate::steps::camera_ray::camera_ray;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink, Surfaces,
-    World,
+    Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink,
+    Surfaces, World, one_by_one,
 };
 
 /// The distance integrator.
@@ -21,15 +21,32 @@ use etalon_transport::{
 pub struct Depth;
 
 impl Integrator for Depth {
+    const UNBIASED: bool = false;
+    const MEDIA: bool = false;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = false;
+
     type State = ();
 
-    fn replicate_kind(&self) -> ReplicateKind {
-        ReplicateKind::Blocks
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
     }
 
     /// It needs no light.
     fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
         Vec::new()
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -49,4 +66,6 @@ impl Integrator for Depth {
             .map_or((0.0, 0.0), |hit| (hit.t, 1.0));
         sink.radiance([t; 3], alpha);
     }
+
+    one_by_one!();
 }

@@ -24,9 +24,9 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfOf, Incompatibility, Integrator, LightSample, LightSampleContext, LightSearch, Pass,
-    PixelSample, Placing, Ray, SceneCapabilities, Sensor, Sink, SurfaceInteraction, Surfaces,
-    TransportMode, World,
+    Bsdf, BsdfOf, Channel, Incompatibility, Integrator, LightSample, LightSampleContext,
+    LightSearch, Pass, PixelSample, Placing, Ray, SceneCapabilities, Sensor, Sink,
+    SurfaceInteraction, Surfaces, TransportMode, World, one_by_one,
 };
 use glam::{Vec3, Vec4};
 
@@ -207,10 +207,19 @@ impl Direct {
 }
 
 impl Integrator for Direct {
+    const UNBIASED: bool = false;
+    const MEDIA: bool = false;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = false;
+
     type State = ();
 
-    fn replicate_kind(&self) -> ReplicateKind {
-        ReplicateKind::Blocks
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
     }
 
     fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
@@ -219,6 +228,14 @@ impl Integrator for Direct {
             (_, 0) => LightSearch::Connecting,
             _ => LightSearch::FromCamera,
         })
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -236,4 +253,6 @@ impl Integrator for Direct {
         let rgb = world.sensor().weights(&wavelengths).rgb(radiance * weight);
         sink.radiance(rgb.to_array(), alpha);
     }
+
+    one_by_one!();
 }

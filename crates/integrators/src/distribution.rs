@@ -26,8 +26,9 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfOf, Integrator, LightSampleContext, Pass, PixelSample, Placing, Ray, Sensor, Sink,
-    SurfaceInteraction, Surfaces, TransportMode, World,
+    Bsdf, BsdfOf, Channel, Incompatibility, Integrator, LightSampleContext, LightSearch, Pass,
+    PixelSample, Placing, Ray, SceneCapabilities, Sensor, Sink, SurfaceInteraction, Surfaces,
+    TransportMode, World, one_by_one,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -274,11 +275,30 @@ enum Next {
 
 impl Integrator for Distribution {
     const UNBIASED: bool = true;
+    const MEDIA: bool = false;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = false;
 
     type State = ();
 
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
+
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        capabilities.incompatibilities(LightSearch::FromCamera)
+    }
+
     fn replicate_kind(&self) -> ReplicateKind {
         ReplicateKind::Blocks
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -318,4 +338,6 @@ impl Integrator for Distribution {
             .rgb(estimate.radiance * weight);
         sink.radiance(rgb.to_array(), estimate.alpha);
     }
+
+    one_by_one!();
 }

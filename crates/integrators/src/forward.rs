@@ -27,8 +27,9 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    Bsdf, Camera, Incompatibility, Integrator, LightKind, LightSearch, Lights, Pass, PixelSample,
-    Placing, Ray, SceneCapabilities, Sensor, Sink, Subject, Surfaces, World,
+    Bsdf, Camera, Channel, Incompatibility, Integrator, LightKind, LightSearch, Lights, Pass,
+    PixelSample, Placing, Ray, SceneCapabilities, Sensor, Sink, Subject, Surfaces, World,
+    one_by_one,
 };
 use glam::Vec4;
 
@@ -172,14 +173,15 @@ impl Forward {
 }
 
 impl Integrator for Forward {
-    const FOLLOWS_LIGHT: bool = true;
     const UNBIASED: bool = true;
     const MEDIA: bool = true;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = true;
 
     type State = ();
 
-    fn replicate_kind(&self) -> ReplicateKind {
-        ReplicateKind::Blocks
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
     }
 
     fn splats(&self) -> bool {
@@ -197,6 +199,14 @@ impl Integrator for Forward {
             incompatibilities.push(Incompatibility::fatal(Subject::Camera, message).help(help));
         }
         incompatibilities
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -221,4 +231,6 @@ impl Integrator for Forward {
             sink,
         );
     }
+
+    one_by_one!();
 }

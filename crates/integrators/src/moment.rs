@@ -19,7 +19,7 @@ use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::colour_space::rgb_to_xyz;
 use etalon_transport::{
     Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink,
-    World,
+    World, one_by_one,
 };
 use glam::Vec2;
 
@@ -47,20 +47,13 @@ impl Moment {
 }
 
 impl Integrator for Moment {
+    const UNBIASED: bool = false;
     /// Its nested integrators decide.
     const MEDIA: bool = true;
     const DIFFUSION: bool = true;
+    const FOLLOWS_LIGHT: bool = false;
 
     type State = ();
-
-    fn replicate_kind(&self) -> ReplicateKind {
-        Nested::replicate_kind(&self.nested)
-    }
-
-    /// Those of the integrators inside.
-    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
-        Nested::incompatibilities(&self.nested, capabilities)
-    }
 
     fn channels(&self) -> Vec<Channel> {
         let mut names = Vec::new();
@@ -75,6 +68,23 @@ impl Integrator for Moment {
         }
         let squares: Vec<String> = names.iter().map(|n| format!("m2_{n}")).collect();
         names.into_iter().chain(squares).map(Channel).collect()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
+
+    /// Those of the integrators inside.
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        Nested::incompatibilities(&self.nested, capabilities)
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        Nested::replicate_kind(&self.nested)
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -103,6 +113,8 @@ impl Integrator for Moment {
             base += own + 3;
         }
     }
+
+    one_by_one!();
 }
 
 /// Passes a nested integrator's findings on, with their squares.

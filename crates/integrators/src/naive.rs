@@ -37,8 +37,9 @@ use etalon_sampling::warps::{square_to_cosine_hemisphere, square_to_uniform_hemi
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
+    Bsdf, Channel, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray,
     SceneCapabilities, Sensor, Sink, SurfaceInteraction, Surfaces, TransportMode, World,
+    one_by_one,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -240,15 +241,30 @@ impl Naive {
 
 impl Integrator for Naive {
     const UNBIASED: bool = true;
+    const MEDIA: bool = false;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = false;
 
     type State = ();
+
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
+
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        capabilities.incompatibilities(LightSearch::Hitting)
+    }
 
     fn replicate_kind(&self) -> ReplicateKind {
         ReplicateKind::Blocks
     }
 
-    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
-        capabilities.incompatibilities(LightSearch::Hitting)
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -266,4 +282,6 @@ impl Integrator for Naive {
         let rgb = world.sensor().weights(&wavelengths).rgb(radiance * weight);
         sink.radiance(rgb.to_array(), alpha);
     }
+
+    one_by_one!();
 }

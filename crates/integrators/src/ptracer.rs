@@ -27,8 +27,9 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    Bsdf, Camera, Incompatibility, Integrator, LightSearch, Lights, Pass, PixelSample, Placing,
-    Ray, ScattererOf, SceneCapabilities, Sensor, Sink, Surfaces, TransportMode, World,
+    Bsdf, Camera, Channel, Incompatibility, Integrator, LightSearch, Lights, Pass, PixelSample,
+    Placing, Ray, ScattererOf, SceneCapabilities, Sensor, Sink, Surfaces, TransportMode, World,
+    one_by_one,
 };
 use glam::{Vec2, Vec4};
 
@@ -179,14 +180,15 @@ impl ParticleTracer {
 }
 
 impl Integrator for ParticleTracer {
-    const FOLLOWS_LIGHT: bool = true;
     const UNBIASED: bool = true;
     const MEDIA: bool = true;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = true;
 
     type State = ();
 
-    fn replicate_kind(&self) -> ReplicateKind {
-        ReplicateKind::Blocks
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
     }
 
     fn splats(&self) -> bool {
@@ -198,6 +200,14 @@ impl Integrator for ParticleTracer {
         incompatibilities.extend(capabilities.unsplattable());
         incompatibilities.extend(capabilities.unconnected());
         incompatibilities
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -225,4 +235,6 @@ impl Integrator for ParticleTracer {
             sink,
         );
     }
+
+    one_by_one!();
 }

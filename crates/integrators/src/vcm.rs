@@ -31,11 +31,11 @@ use crate::photons::{read_count, rounded};
 use crate::steps::camera_ray::{draw_lens, ray_at};
 use crate::steps::settings::PathSettings;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
-    SceneCapabilities, Sink, TileSink, World,
+    Channel, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Preparation,
+    SampleJob, SceneCapabilities, Sink, TileSink, World,
 };
 use std::vec::Drain;
 
@@ -103,10 +103,23 @@ impl ConnectionMerging {
     }
 }
 
+impl Preparation for State {
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
 impl Integrator for ConnectionMerging {
-    const FOLLOWS_LIGHT: bool = true;
+    const UNBIASED: bool = false;
     const MEDIA: bool = true;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = true;
+
     type State = State;
+
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
 
     fn splats(&self) -> bool {
         self.connections
@@ -118,6 +131,10 @@ impl Integrator for ConnectionMerging {
         } else {
             LightSearch::Choosing
         })
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Independent
     }
 
     fn samples_per_pass(&self) -> Option<u32> {

@@ -157,6 +157,10 @@ impl Textures for SmallWorld {
         0.0
     }
 
+    fn gradient(&self, _: TextureId, _: &TexturePoint, _: [Vec3; 2]) -> Vec2 {
+        Vec2::ZERO
+    }
+
     fn colour(&self, _: TextureId, _: &TexturePoint) -> Vec3 {
         Vec3::ZERO
     }

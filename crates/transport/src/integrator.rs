@@ -74,6 +74,18 @@ impl<S> SampleJob<S> {
     }
 }
 
+/// What an estimator prepares before a pass (photon maps, guiding trees); `()` where that is nothing.
+pub trait Preparation: Send + Sync + 'static {
+    /// Remarks for the user, one sentence each.
+    fn remarks(&self) -> Vec<String>;
+}
+
+impl Preparation for () {
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
 /// An estimator: prepares before every pass, then turns random numbers into contributions.
 ///
 /// A replicate is one pass unless the estimator asks for more. A progressive estimator, whose bias
@@ -82,18 +94,18 @@ impl<S> SampleJob<S> {
 /// A sample is a pure function of the sampler's numbers; the estimator of an image is the mean
 /// over its replicates (ARCHITECTURE.md, "Replicates").
 pub trait Integrator: Sync {
-    /// The result of preparation (photon maps, guiding trees); `()` for a path tracer.
-    type State: Send + Sync + 'static;
+    /// The result of preparation.
+    type State: Preparation;
 
     /// Whether its estimate of radiance is unbiased in every scene that it accepts
     /// ([`Integrator::incompatibilities`]), so that it must agree with every other such integrator.
-    const UNBIASED: bool = false;
+    const UNBIASED: bool;
 
     /// Whether it supports participating media; if not, it refuses scenes that have them.
-    const MEDIA: bool = false;
+    const MEDIA: bool;
 
     /// Whether it supports diffusion profiles; if not, it refuses scenes that have any.
-    const DIFFUSION: bool = false;
+    const DIFFUSION: bool;
 
     /// Whether it traces particles from the lights; if so, it refuses scenes where these cannot reach every surface.
     const FOLLOWS_LIGHT: bool = false;
@@ -117,9 +129,7 @@ pub trait Integrator: Sync {
     /// How its replicates are related: [`ReplicateKind::Blocks`] if every sample is an unbiased estimate that
     /// depends on the sampler's numbers only, so that any block of samples is a replicate. Independent where a
     /// replicate has its own preparation, progression or Markov chains.
-    fn replicate_kind(&self) -> ReplicateKind {
-        ReplicateKind::Independent
-    }
+    fn replicate_kind(&self) -> ReplicateKind;
 
     /// Samples per pixel after which it must prepare again; `None` if a replicate is one pass.
     fn samples_per_pass(&self) -> Option<u32> {
@@ -137,11 +147,6 @@ pub trait Integrator: Sync {
         before: Option<Self::State>,
     ) -> Self::State;
 
-    /// Remarks for the user about a preparation, one sentence each.
-    fn remarks(&self, _state: &Self::State) -> Vec<String> {
-        Vec::new()
-    }
-
     /// Draws one sample.
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,
@@ -153,18 +158,36 @@ pub trait Integrator: Sync {
     );
 
     /// Draws several samples, in any order or together, and delivers them in the order given.
-    /// Following several paths together hides the latency of memory.
-    #[inline]
+    /// Following several paths together hides the latency of memory; [`one_by_one!`](crate::one_by_one) does not.
     fn sample_batch<W: World, S: Sampler, K: TileSink>(
         &self,
         world: &W,
         state: &Self::State,
         jobs: Drain<'_, SampleJob<S>>,
         sink: &mut K,
-    ) {
-        for mut job in jobs {
-            sink.begin_placed(job.site.pixel, &job.placement());
-            self.sample(world, state, &job.site, &mut job.sampler, sink);
+    );
+}
+
+/// [`Integrator::sample_batch`] of an estimator that draws one sample after another.
+#[macro_export]
+macro_rules! one_by_one {
+    () => {
+        #[inline]
+        fn sample_batch<W, S, K>(
+            &self,
+            world: &W,
+            state: &Self::State,
+            jobs: ::std::vec::Drain<'_, $crate::SampleJob<S>>,
+            sink: &mut K,
+        ) where
+            W: $crate::World,
+            S: ::etalon_sampling::Sampler,
+            K: $crate::TileSink,
+        {
+            for mut job in jobs {
+                sink.begin_placed(job.site.pixel, &job.placement());
+                self.sample(world, state, &job.site, &mut job.sampler, sink);
+            }
         }
-    }
+    };
 }

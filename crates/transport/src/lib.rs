@@ -40,7 +40,7 @@ pub use camera::{ApertureHit, Camera, CameraRay, CameraSample};
 pub use diffusion::{DiffusionProfile, NoProfile};
 pub use film::{Channel, Film, FilmSample, Placing, Sink, TileSink};
 pub use ids::{InstanceId, LightId, MaterialId, MediumId, ShapeId, TextureId};
-pub use integrator::{Integrator, Pass, PixelSample, SampleJob};
+pub use integrator::{Integrator, Pass, PixelSample, Preparation, SampleJob};
 pub use legacy_phong::LegacyPhong;
 pub use light::{Emission, EmissionPdf, LightKind, LightSample, LightVariety};
 pub use light_sample_context::LightSampleContext;

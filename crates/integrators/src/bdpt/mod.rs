@@ -57,7 +57,7 @@ use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray, SampleJob,
+    Channel, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Ray, SampleJob,
     SceneCapabilities, Sensor, Sink, Subject, TileSink, World,
 };
 use from_camera::FromCamera;
@@ -186,14 +186,15 @@ pub(crate) fn estimate<'w, W: World, S: Sampler, K: Sink>(
 }
 
 impl Integrator for Bidirectional {
-    const FOLLOWS_LIGHT: bool = true;
     const UNBIASED: bool = true;
     const MEDIA: bool = true;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = true;
 
     type State = ();
 
-    fn replicate_kind(&self) -> ReplicateKind {
-        ReplicateKind::Blocks
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
     }
 
     fn splats(&self) -> bool {
@@ -227,6 +228,14 @@ impl Integrator for Bidirectional {
             incompatibilities.push(incompatibility);
         }
         incompatibilities
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}

@@ -43,8 +43,11 @@ mod training_path;
 use crate::path::{follow_alone, follow_jobs};
 use crate::steps::settings::{PathConfig, PathSettings};
 use etalon_params::Params;
-use etalon_sampling::Sampler;
-use etalon_transport::{Integrator, Pass, PixelSample, Placing, SampleJob, Sink, TileSink, World};
+use etalon_sampling::{ReplicateKind, Sampler};
+use etalon_transport::{
+    Channel, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Preparation,
+    SampleJob, SceneCapabilities, Sink, TileSink, World,
+};
 use guided_hooks::GuidedHooks;
 use sd_tree::SdTree;
 use std::vec::Drain;
@@ -139,11 +142,39 @@ pub struct Learned {
     replicate: u32,
 }
 
+impl Preparation for Learned {
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
 impl Integrator for Guided {
     const UNBIASED: bool = true;
     const MEDIA: bool = true;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = false;
 
     type State = Learned;
+
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
+
+    fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
+        capabilities.incompatibilities(LightSearch::FromCamera)
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Independent
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
+    }
 
     fn prepare<W: World>(
         &self,

@@ -6,7 +6,7 @@ use super::importance_map::ImportanceMap;
 use super::primary::PrimarySample;
 use super::{ChainSettings, Integrand};
 use etalon_sampling::hash::{derived_key, mix64, random_float, stream_key};
-use etalon_transport::{Pass, Placing};
+use etalon_transport::{Pass, Placing, Preparation};
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -105,6 +105,12 @@ pub struct BootstrapState {
     pub(super) scale: f64,
     /// The contributions of the bootstrap samples.
     pub(super) contributions: Vec<Contribution>,
+}
+
+impl Preparation for BootstrapState {
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 impl BootstrapState {

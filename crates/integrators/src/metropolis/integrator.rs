@@ -2,10 +2,10 @@
 
 use super::{BootstrapState, ChainSettings, Contributions, FilmRegion, Integrand, PathLengthPdf};
 use crate::steps::settings::PathSettings;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SceneCapabilities, Sink,
-    World,
+    Channel, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing,
+    SceneCapabilities, Sink, World, one_by_one,
 };
 
 /// Turns primary samples into paths.
@@ -82,11 +82,16 @@ impl<'w, W: World, P: PathSampler> Integrand for InWorld<'w, W, P> {
 }
 
 impl<P: PathSampler> Integrator for Metropolis<P> {
-    const FOLLOWS_LIGHT: bool = P::FOLLOWS_LIGHT;
     const UNBIASED: bool = true;
     const MEDIA: bool = true;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = P::FOLLOWS_LIGHT;
 
     type State = BootstrapState;
+
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
 
     fn splats(&self) -> bool {
         true
@@ -96,6 +101,14 @@ impl<P: PathSampler> Integrator for Metropolis<P> {
         let mut incompatibilities = capabilities.incompatibilities(P::LIGHT_SEARCH);
         incompatibilities.extend(capabilities.unsplattable());
         incompatibilities
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Independent
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(
@@ -122,4 +135,6 @@ impl<P: PathSampler> Integrator for Metropolis<P> {
         let integrator = self;
         state.host(&InWorld { integrator, world }, &self.chains, site, sink);
     }
+
+    one_by_one!();
 }

@@ -60,10 +60,10 @@ use crate::photons::shoot::{Kind, PhotonMap, PlacedPhotons, moment, shoot};
 use crate::photons::{read_count, read_nearest, read_sets, rounded};
 use crate::steps::settings::PathSettings;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
-    SceneCapabilities, Sink, TileSink, World,
+    Channel, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Preparation,
+    SampleJob, SceneCapabilities, Sink, TileSink, World,
 };
 use std::vec::Drain;
 
@@ -216,15 +216,50 @@ impl PhotonMapper {
     }
 }
 
+impl Preparation for State {
+    fn remarks(&self) -> Vec<String> {
+        let names = ["global_radius", "caustic_radius"];
+        let held = (names.into_iter().zip(self.held).zip(self.radii))
+            .filter_map(|((name, wide), radius)| Some((name, wide?, radius)));
+        held.map(|(name, wide, radius)| {
+            format!(
+                "`{name}` is {radius:.3} m instead of two pixels ({wide:.3} m), within which a \
+                 look-up would find more than {MOST_FOUND} photons on average; give `{name}` to \
+                 have another"
+            )
+        })
+        .collect()
+    }
+}
+
 impl Integrator for PhotonMapper {
-    const FOLLOWS_LIGHT: bool = true;
+    const UNBIASED: bool = false;
     const MEDIA: bool = true;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = true;
+
     type State = State;
+
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
 
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
     /// shines on.
     fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
         capabilities.incompatibilities(LightSearch::Choosing)
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Independent
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(
@@ -268,20 +303,6 @@ impl Integrator for PhotonMapper {
             radii,
             held: limits,
         }
-    }
-
-    fn remarks(&self, state: &State) -> Vec<String> {
-        let names = ["global_radius", "caustic_radius"];
-        let held = (names.into_iter().zip(state.held).zip(state.radii))
-            .filter_map(|((name, wide), radius)| Some((name, wide?, radius)));
-        held.map(|(name, wide, radius)| {
-            format!(
-                "`{name}` is {radius:.3} m instead of two pixels ({wide:.3} m), within which a \
-                 look-up would find more than {MOST_FOUND} photons on average; give `{name}` to \
-                 have another"
-            )
-        })
-        .collect()
     }
 
     fn sample<W: World, S: Sampler, K: Sink>(

@@ -22,10 +22,10 @@ use crate::photons::shoot::{Kind, PhotonMap, moment, shoot};
 use crate::photons::{read_count, read_sets, rounded};
 use crate::steps::settings::PathSettings;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, SampleJob,
-    SceneCapabilities, Sink, TileSink, World,
+    Channel, Incompatibility, Integrator, LightSearch, Pass, PixelSample, Placing, Preparation,
+    SampleJob, SceneCapabilities, Sink, TileSink, World,
 };
 use std::vec::Drain;
 
@@ -114,15 +114,36 @@ impl Progressive {
     }
 }
 
+impl Preparation for State {
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
 impl Integrator for Progressive {
-    const FOLLOWS_LIGHT: bool = true;
+    const UNBIASED: bool = false;
     const MEDIA: bool = true;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = true;
+
     type State = State;
+
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
 
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
     /// shines on.
     fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
         capabilities.incompatibilities(LightSearch::Choosing)
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Independent
     }
 
     fn samples_per_pass(&self) -> Option<u32> {

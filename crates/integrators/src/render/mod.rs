@@ -21,7 +21,9 @@ pub use replicate_range::ReplicateRange;
 use crate::render::positions::{CancellablePlacing, around, position};
 use crate::render::rounds::{Batches, RoundSize};
 use etalon_sampling::{Independent, SampleId, Sampler, SamplerKind, Sobol, Stratified};
-use etalon_transport::{Film, Integrator, Pass, PixelSample, SampleJob, Surfaces, TileSink, World};
+use etalon_transport::{
+    Film, Integrator, Pass, PixelSample, Preparation, SampleJob, Surfaces, TileSink, World,
+};
 use glam::UVec2;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -48,7 +50,7 @@ pub struct RenderStatistics {
     pub samples: u64,
     /// Rays traced.
     pub rays: u64,
-    /// Remarks of the estimator on its first preparation, see [`Integrator::remarks`].
+    /// Remarks of the estimator on its first preparation, see [`Preparation::remarks`].
     pub remarks: Vec<String>,
 }
 
@@ -158,7 +160,7 @@ impl<W: World, I: Integrator> Run<'_, W, I> {
             let states: Vec<I::State> = self.worlds.iter().map(prepare).collect();
             let first = states.iter().take(1);
             self.remarks
-                .get_or_insert_with(|| first.flat_map(|s| self.integrator.remarks(s)).collect());
+                .get_or_insert_with(|| first.flat_map(Preparation::remarks).collect());
             // An unfinished preparation is not used.
             let until = done.saturating_sub(begin);
             if self.progress.cancelled() || !self.pass(film, &pass, [begin, until], &states) {

@@ -17,8 +17,8 @@
 use crate::steps::camera_ray::camera_ray;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Hit, Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink,
-    Surfaces, World,
+    Channel, Hit, Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink,
+    Surfaces, World, one_by_one,
 };
 
 /// The signature integrator.
@@ -54,15 +54,32 @@ fn object(hit: &Hit) -> u32 {
 }
 
 impl Integrator for Signature {
+    const UNBIASED: bool = false;
+    const MEDIA: bool = false;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = false;
+
     type State = ();
 
-    fn replicate_kind(&self) -> ReplicateKind {
-        ReplicateKind::Blocks
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
     }
 
     /// It needs no light.
     fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
         Vec::new()
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Blocks
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
@@ -81,6 +98,8 @@ impl Integrator for Signature {
             None => sink.radiance([0.0; 3], 0.0),
         }
     }
+
+    one_by_one!();
 }
 
 #[cfg(test)]

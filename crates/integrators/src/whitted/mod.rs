@@ -47,10 +47,10 @@ pub use caustics::CausticSettings;
 use caustics::Caustics;
 pub use continuation::Continuation;
 use etalon_params::Params;
-use etalon_sampling::Sampler;
+use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
-    Incompatibility, Integrator, Pass, PixelSample, Placing, SampleJob, SceneCapabilities, Sink,
-    Subject, TileSink, World,
+    Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, Preparation, SampleJob,
+    SceneCapabilities, Sink, Subject, TileSink, World,
 };
 use glam::{UVec2, Vec4};
 pub use onward::onward;
@@ -227,8 +227,27 @@ impl Picture {
     }
 }
 
+impl Preparation for Picture {
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
 impl Integrator for Whitted {
+    const UNBIASED: bool = false;
+    const MEDIA: bool = false;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = false;
+
     type State = Picture;
+
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
 
     /// It samples all lights and renders classic materials; a sky has no points to sample.
     fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
@@ -254,6 +273,14 @@ impl Integrator for Whitted {
             Incompatibility::remark(Subject::Integrator, message).help(help)
         });
         sky.into_iter().chain(unlit).chain(lens).collect()
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Independent
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
     }
 
     fn prepare<W: World>(

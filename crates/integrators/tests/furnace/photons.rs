@@ -13,7 +13,7 @@ use etalon_integrators::photons::radius::Radius;
 use etalon_integrators::sppm::Progressive;
 use etalon_integrators::vcm::ConnectionMerging;
 use etalon_sampling::{Independent, SampleId, Sampler};
-use etalon_transport::{Integrator, Pass, PixelSample};
+use etalon_transport::{Integrator, Pass, PixelSample, Preparation};
 use glam::UVec2;
 
 const PHOTONS: u32 = 1024;
@@ -268,7 +268,7 @@ fn a_default_radius_is_held_where_photons_are_dense() {
             ..mapper(false, None, 0)
         };
         let state = mapper.prepare(&world, &(), &pass(0), None);
-        mapper.remarks(&state)
+        state.remarks()
     };
     let held = |photons: u32| -> f32 {
         let remarks = remarks(photons, None);

@@ -7,10 +7,11 @@ use crate::together::Record;
 use crate::world::{Fault, Plane, Stack};
 use etalon_integrators::guided::{Guided, Learned};
 use etalon_integrators::settings::PathSettings;
-use etalon_sampling::{Independent, SampleId, Sampler};
+use etalon_sampling::{Independent, ReplicateKind, SampleId, Sampler};
 use etalon_statistics::Summary;
 use etalon_transport::{
-    FilmSample, Integrator, Pass, PixelSample, Placing, SampleJob, Sink, TileSink, World,
+    Channel, FilmSample, Incompatibility, Integrator, Pass, PixelSample, Placing, SampleJob,
+    SceneCapabilities, Sink, TileSink, World, one_by_one,
 };
 use glam::{UVec2, Vec2};
 
@@ -23,7 +24,32 @@ struct Prepared {
 }
 
 impl Integrator for Prepared {
+    const UNBIASED: bool = false;
+    const MEDIA: bool = false;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = false;
+
     type State = ();
+
+    fn channels(&self) -> Vec<Channel> {
+        Vec::new()
+    }
+
+    fn splats(&self) -> bool {
+        false
+    }
+
+    fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
+        Vec::new()
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Independent
+    }
+
+    fn samples_per_pass(&self) -> Option<u32> {
+        None
+    }
 
     fn prepare<W: World>(&self, _: &W, _: &impl Placing, _: &Pass, _: Option<()>) {}
 
@@ -37,6 +63,8 @@ impl Integrator for Prepared {
     ) {
         (self.integrator).sample(world, &self.learned, site, sampler, sink);
     }
+
+    one_by_one!();
 }
 
 fn pass(replicate: u32) -> Pass {

@@ -4,7 +4,10 @@ use crate::tally::Tally;
 use crate::world::{Plane, Stack, ZERO};
 use etalon_integrators::{Progress, RenderPlan, RenderStatistics, ReplicateRange, render};
 use etalon_sampling::{ReplicateKind, Sampler, SamplerKind};
-use etalon_transport::{Channel, Integrator, Pass, PixelSample, Placing, Sink, Surfaces, World};
+use etalon_transport::{
+    Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, Preparation,
+    SceneCapabilities, Sink, Surfaces, World, one_by_one,
+};
 use glam::UVec2;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
@@ -18,18 +21,50 @@ struct Marbles {
     samples_per_pass: Option<u32>,
 }
 
+/// The number of a pass, counted through all replicates.
+struct Turn(u32);
+
+impl Preparation for Turn {
+    fn remarks(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
 impl Integrator for Marbles {
-    type State = u32;
+    const UNBIASED: bool = false;
+    const MEDIA: bool = false;
+    const DIFFUSION: bool = false;
+    const FOLLOWS_LIGHT: bool = false;
+
+    type State = Turn;
+
     fn channels(&self) -> Vec<Channel> {
         Vec::new()
     }
+
     fn splats(&self) -> bool {
         true
     }
+
+    fn incompatibilities(&self, _: &SceneCapabilities) -> Vec<Incompatibility> {
+        Vec::new()
+    }
+
+    fn replicate_kind(&self) -> ReplicateKind {
+        ReplicateKind::Independent
+    }
+
     fn samples_per_pass(&self) -> Option<u32> {
         self.samples_per_pass
     }
-    fn prepare<W: World>(&self, _: &W, _: &impl Placing, pass: &Pass, before: Option<u32>) -> u32 {
+
+    fn prepare<W: World>(
+        &self,
+        _: &W,
+        _: &impl Placing,
+        pass: &Pass,
+        before: Option<Turn>,
+    ) -> Turn {
         let expected = Pass {
             seed: 5,
             origin: self.origin,
@@ -43,13 +78,14 @@ impl Integrator for Marbles {
         assert_eq!(pass.image_samples % 4, 0);
         let turn = pass.replicate * pass.count + pass.number;
         let first = self.first_replicate * pass.count + self.first_pass;
-        assert_eq!(before, turn.checked_sub(1).filter(|_| turn > first));
-        turn
+        let expected = turn.checked_sub(1).filter(|_| turn > first);
+        assert_eq!(before.map(|turn| turn.0), expected);
+        Turn(turn)
     }
     fn sample<W: World, S: Sampler, K: Sink>(
         &self,
         world: &W,
-        _: &u32,
+        _: &Turn,
         site: &PixelSample,
         sampler: &mut S,
         sink: &mut K,
@@ -71,6 +107,8 @@ impl Integrator for Marbles {
             0.0,
         ));
     }
+
+    one_by_one!();
 }
 
 /// Counts, and asks to stop once `patience` tiles are done. Lingers over some tiles, so that
