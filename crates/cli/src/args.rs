@@ -396,7 +396,7 @@ pub struct MovieArgs {
 /// Arguments of `info`.
 #[derive(Debug, Args, Clone)]
 pub struct InfoArgs {
-    /// An image or a scene.
+    /// An image, a scene or a checkpoint.
     #[arg(required_unless_present = "plugins")]
     pub file: Option<PathBuf>,
     /// Say it as JSON, of a scene or an image.

@@ -76,6 +76,27 @@ fn what_a_pilot_fixed_stays_fixed() {
 }
 
 #[test]
+fn info_says_how_far_a_checkpoint_got() {
+    let workshop = Workshop::new();
+    begin_and_kill(&workshop, &LONG);
+    let said = (workshop.run(&["info", "a.exr.checkpoint"]).fine()).stdout;
+    let metadata = etalon_film::Part::read_metadata(&workshop.path("a.exr.checkpoint"));
+    let finished = metadata.expect("a checkpoint").replicates;
+    for words in [
+        "24 × 20 pixels\n".to_owned(),
+        format!(
+            "checkpoint   {finished} of 16 replicates are finished; `etalon render --resume` continues"
+        ),
+    ] {
+        assert!(said.contains(&words), "{words:?} in {said}");
+    }
+    assert!(!said.contains("\npart "), "{said}");
+    let json = (workshop.run(&["info", "a.exr.checkpoint", "--json"]).fine()).stdout;
+    let facts: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert!(facts["metadata"]["checkpoint"].is_object(), "{json}");
+}
+
+#[test]
 fn a_time_is_not_counted_anew() {
     let workshop = Workshop::new();
     let further = ["--time", "2", "--replicates", "20"];

@@ -4,12 +4,20 @@ use crate::builder::Builder;
 use crate::surfaces::COMPOSED;
 use etalon_geometry::shapes::csg::Operation;
 use etalon_geometry::{GeometryBuilder, Shape};
-use etalon_params::{Class, Diagnostic, Params, plugins};
+use etalon_params::{Class, Diagnostic, Params, Value, plugins};
 use etalon_transport::{Build, SpectrumKind, TexturePoint};
 use glam::{Vec2, Vec3};
 
 /// Its name in a scene file.
 pub(crate) const NAME: &str = "displacement";
+
+/// What the moved shape has in common with every other, and so belongs to the `displacement`.
+const NOT_OF_THE_SHAPE: [Class; 4] = [
+    Class::Bsdf,
+    Class::Emitter,
+    Class::Medium,
+    Class::Subsurface,
+];
 
 /// Reads a shape's own parameters. `None` if there is no such plugin; a shape unless there was a mistake.
 pub(crate) fn shape(params: &Params<'_>, builder: &mut Builder<'_>) -> Option<Option<Shape>> {
@@ -64,6 +72,19 @@ fn displaced(params: &Params<'_>, builder: &mut Builder<'_>) -> Option<Shape> {
             "{} cannot be moved by a texture",
             child.with_article()
         ));
+    }
+    for property in &child.properties {
+        if let Value::Object(inner) = &property.value
+            && NOT_OF_THE_SHAPE.contains(&inner.class)
+        {
+            let message = format!(
+                "the {} of a shape that is moved by a texture belongs to the `{NAME}`",
+                inner.class.name()
+            );
+            let help = format!("write it beside the shape, within the `{NAME}`");
+            diagnostics.push(Diagnostic::error(inner.plugin.span, message).help(help));
+            property.mark_used();
+        }
     }
     let shape = Shape::from_params(&own, builder);
     own.finish_after(shape.is_some());

@@ -212,6 +212,31 @@ fn solids_that_are_none() {
 }
 
 #[test]
+fn what_a_displaced_shape_is_made_of_stands_beside_it() {
+    let displacement = |inside: &str| {
+        format!(
+            "<shape type=\"displacement\"><float name=\"height\" value=\"0\"/>\
+             <float name=\"edge_length\" value=\"1\"/>\
+             <shape type=\"rectangle\">{inside}</shape></shape>"
+        )
+    };
+    let errors = read_with(&document(&displacement("")), &[]).errors;
+    assert_eq!(errors, Vec::<String>::new());
+    for (inside, class) in [
+        ("<bsdf type=\"diffuse\"/>", "bsdf"),
+        ("<emitter type=\"area\"/>", "emitter"),
+        ("<medium type=\"homogeneous\" name=\"interior\"/>", "medium"),
+        ("<subsurface type=\"dipole\"/>", "subsurface"),
+    ] {
+        let mistake = only_mistake(&displacement(inside));
+        let words = format!(
+            "the {class} of a shape that is moved by a texture belongs to the `displacement`"
+        );
+        assert!(mistake.contains(&words), "{mistake}");
+    }
+}
+
+#[test]
 fn motions_that_are_none() {
     let sphere = |inside: &str| {
         format!("<shape type=\"sphere\"><animation name=\"to_world\">{inside}</animation></shape>")

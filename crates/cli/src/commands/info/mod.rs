@@ -19,12 +19,14 @@ pub fn run(args: &InfoArgs) -> ExitCode {
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("xml") => scene::run(file, args.json),
-        Some("exr") => match read_developed(file) {
+        Some("exr" | "checkpoint") => match read_developed(file) {
             Ok(developed) if args.json => answer(&as_json(&developed), ExitCode::SUCCESS),
             Ok(developed) => answer(&image(&developed), ExitCode::SUCCESS),
             Err(error) => fail(error),
         },
-        _ if args.json => fail("`--json` tells of scenes (.xml) and of images (.exr)"),
+        _ if args.json => {
+            fail("`--json` tells of scenes (.xml), images (.exr) and checkpoints (.checkpoint)")
+        }
         _ => match contents(file) {
             Some(Ok(text)) => answer(&text, ExitCode::SUCCESS),
             Some(Err(reason)) => fail(format!("{}: {reason}", file.display())),
@@ -116,11 +118,19 @@ fn image(developed: &RenderedImage) -> String {
         text += "replicates   blocks of one sequence: standard errors are upper estimates\n";
     }
     if let Some(part) = &m.part {
-        text += &format!(
-            "part         the replicates {} of 0 to {}, with exact sums for `etalon merge`\n",
-            part.replicates,
-            part.of.saturating_sub(1)
-        );
+        text += &match &m.checkpoint {
+            Some(_) => format!(
+                "checkpoint   {} of {} replicates are finished; `etalon render --resume` continues from them, \
+                 `etalon merge` takes them\n",
+                part.replicates.count(),
+                part.of
+            ),
+            None => format!(
+                "part         the replicates {} of 0 to {}, with exact sums for `etalon merge`\n",
+                part.replicates,
+                part.of.saturating_sub(1)
+            ),
+        };
     }
     if let Some(begun) = &m.unfinished {
         let what = match m.replicates {
