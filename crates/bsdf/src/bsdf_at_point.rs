@@ -247,12 +247,16 @@ impl Bsdf for BsdfAtPoint<'_> {
         self.lobes().iter().any(|l| l.scatter.has_discrete())
     }
 
+    #[inline]
     fn hemisphere(&self) -> Option<Frame> {
+        if let Lobes::One(lobe) = &self.lobes {
+            return (lobe.scatter.has_continuous() && lobe.is_one_sided()).then_some(lobe.frame);
+        }
         let mut continuous = self.lobes().iter().filter(|l| l.scatter.has_continuous());
         let first = continuous.next()?;
         let same = |lobe: &Lobe<'_>| {
             let turned = lobe.frame.n != first.frame.n && lobe.frame.n != -first.frame.n;
-            !(turned || lobe.scatter.transmits() || lobe.tilt.is_some())
+            !turned && lobe.is_one_sided()
         };
         (same(first) && continuous.all(same)).then_some(first.frame)
     }

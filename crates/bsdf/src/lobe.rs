@@ -22,6 +22,12 @@ pub struct Lobe<'a> {
 }
 
 impl Lobe<'_> {
+    /// Whether all its continuous directions are on the side of its frame's normal that `wo` is on.
+    #[inline]
+    pub(crate) fn is_one_sided(&self) -> bool {
+        !self.scatter.transmits() && self.tilt.is_none()
+    }
+
     /// Weighted value, and density times the probability of this lobe, for world directions.
     #[inline]
     pub fn eval_and_density(
@@ -58,10 +64,11 @@ impl Lobe<'_> {
             let sample = |wo| self.scatter.sample(wo, u_lobe, u, mode);
             return self.sample_tilted(tilt, normal, wo, (mode, u.x), sample);
         }
-        let local = self
-            .scatter
-            .sample(self.frame.to_local(wo), u_lobe, u, mode)?;
-        Some(self.in_world(normal, wo, mode, local))
+        let mut sample = (self.scatter).sample(self.frame.to_local(wo), u_lobe, u, mode);
+        if let Some(sample) = &mut sample {
+            self.in_world(normal, wo, mode, sample);
+        }
+        sample
     }
 
     /// The discrete direction number `index` of this lobe, weighted.
@@ -76,37 +83,23 @@ impl Lobe<'_> {
             let discrete = |wo| self.scatter.discrete(wo, index, mode);
             return self.sample_tilted(tilt, normal, wo, (mode, 0.0), discrete);
         }
-        let local = self
-            .scatter
-            .discrete(self.frame.to_local(wo), index, mode)?;
-        Some(self.in_world(normal, wo, mode, local))
+        let mut sample = (self.scatter).discrete(self.frame.to_local(wo), index, mode);
+        if let Some(sample) = &mut sample {
+            self.in_world(normal, wo, mode, sample);
+        }
+        sample
     }
 
+    /// Takes a sample of the model to the world, with this lobe's weight and probability; in place, so that it is not copied.
     #[inline]
-    fn in_world(
-        &self,
-        normal: Vec3,
-        wo: Vec3,
-        mode: TransportMode,
-        local: BsdfSample,
-    ) -> BsdfSample {
-        let wi = self.frame.to_world(local.wi);
+    fn in_world(&self, normal: Vec3, wo: Vec3, mode: TransportMode, sample: &mut BsdfSample) {
+        sample.wi = self.frame.to_world(sample.wi);
         let factor = match mode {
             TransportMode::Radiance => self.weight,
-            TransportMode::Importance => self.weight * adjoint(self.frame.n, normal, wo, wi),
+            TransportMode::Importance => self.weight * adjoint(self.frame.n, normal, wo, sample.wi),
         };
-        let chance = match local.chance {
-            SamplePdf::Continuous(density) => SamplePdf::Continuous(density * self.probability),
-            SamplePdf::Discrete(atom) => {
-                SamplePdf::Discrete(DeltaProbability(atom.0 * self.probability))
-            }
-        };
-        BsdfSample {
-            wi,
-            value: local.value * factor,
-            chance,
-            ..local
-        }
+        sample.value *= factor;
+        sample.chance = sample.chance.scaled(self.probability);
     }
 
     /// [`Lobe::eval_and_density`] with a tilted normal. The viewer decides the model's frame; sampling, which knows

@@ -197,6 +197,7 @@ macro_rules! models {
                 }
             }
 
+            #[inline]
             fn transmits(&self) -> bool {
                 match self {
                     $(Self::$plain(model) => model.transmits(),)*

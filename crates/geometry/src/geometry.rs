@@ -69,11 +69,11 @@ pub struct GeometryStatistics {
 impl Geometry {
     #[inline(always)]
     fn probe(&self, ray: &Ray) -> TraversalRay {
-        TraversalRay {
-            departure: ray.departure,
-            time: ray.time,
-            ..self.world.scope.probe(ray.origin, ray.direction)
-        }
+        // Changed in place: a struct update would copy it.
+        let mut probe = self.world.scope.probe(ray.origin, ray.direction);
+        probe.departure = ray.departure;
+        probe.time = ray.time;
+        probe
     }
 
     /// The primitives of the world that are not triangles, for accelerators.
@@ -189,11 +189,10 @@ impl Geometry {
             self.surface(&self.world, ray, hit)
         };
         let owner = self.owner(hit.shape, found.surface.face, hit.instance);
-        SurfaceInteraction {
-            t: hit.t,
-            time: ray.time,
-            ..(found.surface).vertex(&owner, found.primitive, found.parameters)
-        }
+        let mut vertex = (found.surface).vertex(&owner, found.primitive, found.parameters);
+        vertex.t = hit.t;
+        vertex.time = ray.time;
+        vertex
     }
 
     /// The surface where a ray in a group's space hits something of its placement number `path`.
@@ -222,41 +221,46 @@ impl Geometry {
     #[inline(always)]
     fn surface(&self, group: &Group, ray: &Ray, hit: &Hit) -> Found {
         let shape = &self.shapes[hit.shape.0 as usize];
-        let (mut primitive, mut parameters) = (hit.primitive, hit.parameters);
-        let surface = match shape.triangles() {
-            // Tracing the ray has brought the accelerator's copy of the corners close.
-            Some(_) => shape.triangle(primitive, parameters, || {
-                group.accelerator.corners(hit.slot)
-            }),
-            None => {
-                // Again, as it was found: rounding t would move the point of a small shape far
-                // away to anywhere on it.
-                let line = Line {
-                    origin: ray.origin.as_dvec3(),
-                    direction: ray.direction.as_dvec3(),
-                };
-                let crossing = shape.crossing_near(primitive, &line, hit.t.into());
-                let point = line.at(crossing.t);
-                Some(match shape.mesh() {
-                    Some(mesh) => {
-                        (primitive, parameters) = mesh.place_near(point);
-                        let corners = || mesh.corners(primitive);
-                        let surface = shape.triangle(primitive, parameters, corners);
-                        mesh.with_depth(primitive, surface.expect("it has triangles"))
-                    }
-                    None => {
-                        let surface = shape.surface_at(primitive, point, &crossing);
-                        let surface = surface.expect("it has no triangles");
-                        parameters = surface.uv;
-                        surface
-                    }
-                })
-            }
-        };
+        if shape.is_analytic() {
+            return Self::crossed(shape, ray, hit);
+        }
+        // Tracing the ray has brought the accelerator's copy of the corners close.
+        let corners = || group.accelerator.corners(hit.slot);
+        let surface = shape.triangle(hit.primitive, hit.parameters, corners);
         Found {
-            surface: surface.expect("a shape has triangles or is a solid"),
-            primitive,
-            parameters,
+            surface: surface.expect("it has triangles"),
+            primitive: hit.primitive,
+            parameters: hit.parameters,
+        }
+    }
+
+    /// The same of a shape that is intersected by a formula.
+    #[inline(never)] // So that what triangles need is not spread over memory.
+    fn crossed(shape: &Shape, ray: &Ray, hit: &Hit) -> Found {
+        // Again, as it was found: rounding t would move the point of a small shape far
+        // away to anywhere on it.
+        let line = Line {
+            origin: ray.origin.as_dvec3(),
+            direction: ray.direction.as_dvec3(),
+        };
+        let crossing = shape.crossing_near(hit.primitive, &line, hit.t.into());
+        let point = line.at(crossing.t);
+        if let Some(mesh) = shape.mesh() {
+            let (primitive, parameters) = mesh.place_near(point);
+            let corners = || mesh.corners(primitive);
+            let surface = shape.triangle(primitive, parameters, corners);
+            return Found {
+                surface: mesh.with_depth(primitive, surface.expect("it has triangles")),
+                primitive,
+                parameters,
+            };
+        }
+        let surface = shape.surface_at(hit.primitive, point, &crossing);
+        let surface = surface.expect("it has no triangles");
+        Found {
+            parameters: surface.uv,
+            primitive: hit.primitive,
+            surface,
         }
     }
 

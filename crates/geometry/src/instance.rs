@@ -72,10 +72,8 @@ impl Geometry {
         let (origin, direction) = (instance.placement).at(probe.time, |placement| {
             placement.local_ray(probe.origin, probe.direction)
         });
-        let local = TraversalRay {
-            time: probe.time,
-            ..group.scope.probe(origin, direction)
-        };
+        let mut local = group.scope.probe(origin, direction);
+        local.time = probe.time;
         (group, local)
     }
 

@@ -145,9 +145,11 @@ impl Shapes for Geometry {
                     ..sampled
                 })
             }
-        })?;
-        sampled.point.texture.shape = shape;
-        Some(sampled)
+        });
+        if let Some(sampled) = &mut sampled {
+            sampled.point.texture.shape = shape;
+        }
+        sampled
     }
 
     fn density_toward(&self, shape: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32 {

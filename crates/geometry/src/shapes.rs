@@ -365,8 +365,12 @@ impl Shape {
     /// chosen point is seen edge-on or the shape has no area.
     #[inline]
     pub(crate) fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
-        let sampled = ask!(self, shape => ShapeModel::sample_toward(shape, from, u))?;
-        (sampled.density > 0.0 && sampled.density < f32::INFINITY).then_some(sampled)
+        let mut sampled = ask!(self, shape => ShapeModel::sample_toward(shape, from, u));
+        // In place: it is not copied.
+        if !sampled.is_some_and(|at| at.density > 0.0 && at.density < f32::INFINITY) {
+            sampled = None;
+        }
+        sampled
     }
 
     /// The density per unit solid angle with which [`Shape::sample_toward`] from `from` chooses

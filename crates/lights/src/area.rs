@@ -80,7 +80,9 @@ impl LightModel for AreaLight {
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
-        let SampledPoint { point, density } = scene.sample_toward(self.shape, from, u)?;
+        let sampled = scene.sample_toward(self.shape, from, u);
+        let SampledPoint { point, density } = sampled.as_ref()?;
+        let density = *density;
         let to = point.position - from.position;
         // Also false where the two coincide, or are farther apart than numbers go.
         if !(density > 0.0 && point.normal.dot(to) < 0.0) {
@@ -90,7 +92,7 @@ impl LightModel for AreaLight {
         Some(LightSample {
             direction,
             target: Some(point.origin_toward(from.position)),
-            radiance: self.emitted(scene, &point, -direction, wavelengths),
+            radiance: self.emitted(scene, point, -direction, wavelengths),
             chance: SamplePdf::Continuous(Density::uniform(density)),
             cos: -point.normal.dot(direction),
             origin: LightKind::Surface,

@@ -171,7 +171,9 @@ impl LightSet {
         u: Vec2,
     ) -> Option<LightSample> {
         let choice = self.selector.choose(from, u_light)?;
-        let mut sample = self.get(choice.light).sample(scene, from, wavelengths, u)?;
+        let mut sampled = self.get(choice.light).sample(scene, from, wavelengths, u);
+        // In place: it is not copied.
+        let sample = sampled.as_mut()?;
         sample.light = choice.light;
         match &mut sample.chance {
             // Several skies seen in one direction are one technique: whichever chose the
@@ -185,7 +187,7 @@ impl LightSet {
             SamplePdf::Continuous(density) => *density = *density * choice.probability,
             SamplePdf::Discrete(DeltaProbability(p)) => *p *= choice.probability,
         }
-        Some(sample)
+        sampled
     }
 
     /// How samples of [`LightSet::sample`] from `from` vary.
@@ -208,9 +210,11 @@ impl LightSet {
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
-        let mut sample = self.get(light).sample(scene, from, wavelengths, u)?;
-        sample.light = light;
-        Some(sample)
+        let mut sampled = self.get(light).sample(scene, from, wavelengths, u);
+        if let Some(sample) = &mut sampled {
+            sample.light = light;
+        }
+        sampled
     }
 
     /// The density with which [`LightSet::sample`] from `from` chooses the surface point `at`;

@@ -134,10 +134,13 @@ impl World for Scene {
             }
             LightChoice::Other(u_light) => u_light,
         };
-        let mut sample =
-            (self.parts.lights).sample(&self.parts.space.lookup, from, wavelengths, u_light, u)?;
-        sample.chance = sample.chance.scaled(self.parts.of_others);
-        Some(sample)
+        let mut sampled =
+            (self.parts.lights).sample(&self.parts.space.lookup, from, wavelengths, u_light, u);
+        // In place: it is not copied.
+        if let Some(sample) = &mut sampled {
+            sample.chance = sample.chance.scaled(self.parts.of_others);
+        }
+        sampled
     }
 
     #[inline]

@@ -2,6 +2,7 @@
 
 use crate::decode::ImageChannel;
 use crate::pixels::Image;
+use crate::texture::TextureModel;
 use crate::{Constant, Texture};
 use etalon_params::{Node, Span};
 use etalon_spectrum::Spectrum;
@@ -131,7 +132,11 @@ impl TextureTable {
         at: &TexturePoint,
         lambda: Vec4,
     ) -> Vec4 {
-        self.get(id).spectrum(self, shapes, at, lambda)
+        match self.get(id) {
+            // Apart, so that what is the same everywhere takes no call of what may be anything.
+            Texture::Constant(constant) => constant.spectrum(self, shapes, at, lambda),
+            texture => texture.spectrum(self, shapes, at, lambda),
+        }
     }
 
     /// A number at a point: the luminance of colours.
