@@ -113,6 +113,18 @@ impl<'a> BsdfAtPoint<'a> {
         }
     }
 
+    /// [`Bsdf::hemisphere`] of several lobes.
+    #[inline(never)]
+    fn hemisphere_of_many(&self) -> Option<Frame> {
+        let mut continuous = self.lobes().iter().filter(|l| l.scatter.has_continuous());
+        let first = continuous.next()?;
+        let same = |lobe: &Lobe<'_>| {
+            let turned = lobe.frame.n != first.frame.n && lobe.frame.n != -first.frame.n;
+            !turned && lobe.is_one_sided()
+        };
+        (same(first) && continuous.all(same)).then_some(first.frame)
+    }
+
     fn pass(&self, wo: Vec3) -> BsdfSample {
         BsdfSample {
             wi: -wo,
@@ -247,18 +259,15 @@ impl Bsdf for BsdfAtPoint<'_> {
         self.lobes().iter().any(|l| l.scatter.has_discrete())
     }
 
-    #[inline]
+    #[inline(always)] // Small without the rare case, and its answer is large.
     fn hemisphere(&self) -> Option<Frame> {
-        if let Lobes::One(lobe) = &self.lobes {
-            return (lobe.scatter.has_continuous() && lobe.is_one_sided()).then_some(lobe.frame);
+        match &self.lobes {
+            Lobes::One(lobe) => {
+                (lobe.scatter.has_continuous() && lobe.is_one_sided()).then_some(lobe.frame)
+            }
+            Lobes::None => None,
+            Lobes::Many { .. } => self.hemisphere_of_many(),
         }
-        let mut continuous = self.lobes().iter().filter(|l| l.scatter.has_continuous());
-        let first = continuous.next()?;
-        let same = |lobe: &Lobe<'_>| {
-            let turned = lobe.frame.n != first.frame.n && lobe.frame.n != -first.frame.n;
-            !turned && lobe.is_one_sided()
-        };
-        (same(first) && continuous.all(same)).then_some(first.frame)
     }
 
     #[inline]

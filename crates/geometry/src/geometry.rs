@@ -183,11 +183,17 @@ impl Geometry {
     /// The differential geometry of a hit.
     #[inline]
     pub fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        let found = if hit.instance.is_some() {
-            self.surface_in(&self.world, hit.instance.0, ray, hit)
-        } else {
-            self.surface(&self.world, ray, hit)
-        };
+        if hit.instance.is_some() {
+            let found = self.surface_in(&self.world, hit.instance.0, ray, hit);
+            return self.vertex_of(ray, hit, found);
+        }
+        self.surface(&self.world, ray, hit, |found| {
+            self.vertex_of(ray, hit, found)
+        })
+    }
+
+    #[inline(always)]
+    fn vertex_of(&self, ray: &Ray, hit: &Hit, found: Found) -> SurfaceInteraction {
         let owner = self.owner(hit.shape, found.surface.face, hit.instance);
         let mut vertex = (found.surface).vertex(&owner, found.primitive, found.parameters);
         vertex.t = hit.t;
@@ -206,7 +212,7 @@ impl Geometry {
                 (local.origin, local.direction) = placement.local_ray(ray.origin, ray.direction);
             }
             let found = if rest == 0 {
-                self.surface(inner, &local, hit)
+                self.surface(inner, &local, hit, |found| found)
             } else {
                 self.surface_in(inner, rest, &local, hit)
             };
@@ -217,21 +223,22 @@ impl Geometry {
         })
     }
 
-    /// The surface where a ray in a group's space hits a shape of it.
+    /// The surface where a ray in a group's space hits a shape of it, as `take` takes it.
     #[inline(always)]
-    fn surface(&self, group: &Group, ray: &Ray, hit: &Hit) -> Found {
+    fn surface<R>(&self, group: &Group, ray: &Ray, hit: &Hit, take: impl Fn(Found) -> R) -> R {
         let shape = &self.shapes[hit.shape.0 as usize];
         if shape.is_analytic() {
-            return Self::crossed(shape, ray, hit);
+            return take(Self::crossed(shape, ray, hit));
         }
         // Tracing the ray has brought the accelerator's copy of the corners close.
         let corners = || group.accelerator.corners(hit.slot);
-        let surface = shape.triangle(hit.primitive, hit.parameters, corners);
-        Found {
-            surface: surface.expect("it has triangles"),
-            primitive: hit.primitive,
-            parameters: hit.parameters,
-        }
+        shape.at_triangle(hit.primitive, hit.parameters, corners, |surface| {
+            take(Found {
+                surface,
+                primitive: hit.primitive,
+                parameters: hit.parameters,
+            })
+        })
     }
 
     /// The same of a shape that is intersected by a formula.

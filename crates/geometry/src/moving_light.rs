@@ -44,6 +44,24 @@ impl Geometry {
         })
     }
 
+    /// [`Shapes::sample_toward`] of a shape that moves; apart, so that the sampling of what stands is part of its caller.
+    #[cold]
+    #[inline(never)]
+    fn sample_moving_toward(
+        &self,
+        shape: ShapeId,
+        from: &LightSampleContext,
+        u: Vec2,
+    ) -> Option<SampledPoint> {
+        let placement = self.at(shape, from.time, |_, placement| placement.copied())?;
+        let local = placement.local_receiver(from);
+        let sampled = self.shape(shape).sample_toward(&local, u)?;
+        Some(SampledPoint {
+            point: placement.surface_point(&sampled.point),
+            ..sampled
+        })
+    }
+
     /// The box around what a placement of a group carries, whenever.
     fn carried_bounds(&self, group: &Group, path: u32, bounds: Bounds) -> Bounds {
         let (instance, rest) = self.enter(group, path);
@@ -136,16 +154,11 @@ impl Shapes for Geometry {
         from: &LightSampleContext,
         u: Vec2,
     ) -> Option<SampledPoint> {
-        let mut sampled = self.at(shape, from.time, |model, placement| match placement {
-            None => model.sample_toward(from, u),
-            Some(placement) => {
-                let sampled = model.sample_toward(&placement.local_receiver(from), u)?;
-                Some(SampledPoint {
-                    point: placement.surface_point(&sampled.point),
-                    ..sampled
-                })
-            }
-        });
+        let moves = self.attachments[shape.0 as usize].carrier.is_some();
+        let mut sampled = match moves {
+            false => self.shape(shape).sample_toward(from, u),
+            true => self.sample_moving_toward(shape, from, u),
+        };
         if let Some(sampled) = &mut sampled {
             sampled.point.texture.shape = shape;
         }

@@ -298,6 +298,19 @@ impl Shape {
         ask!(self, shape => shape.triangle(primitive, b, corners))
     }
 
+    /// What `take` makes of the surface of a triangle, which the shape has. Taken where it is made: what any shape returns
+    /// is copied on the way.
+    #[inline(always)]
+    pub(crate) fn at_triangle<R>(
+        &self,
+        primitive: u32,
+        b: Vec2,
+        corners: impl FnOnce() -> [Vec3; 3],
+        take: impl FnOnce(LocalInteraction) -> R,
+    ) -> R {
+        ask!(self, shape => take(shape.triangle(primitive, b, corners).expect("it has triangles")))
+    }
+
     /// The smallest box around it.
     pub fn bounds(&self) -> Bounds {
         match self.mesh() {
@@ -363,7 +376,7 @@ impl Shape {
 
     /// A point chosen for a receiver, with its density per unit solid angle there. `None` if the
     /// chosen point is seen edge-on or the shape has no area.
-    #[inline]
+    #[inline(always)] // Large, and asked at every vertex.
     pub(crate) fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
         let mut sampled = ask!(self, shape => ShapeModel::sample_toward(shape, from, u));
         // In place: it is not copied.

@@ -181,7 +181,7 @@ impl Light {
     }
 
     /// A direction from `from` to the light, as if it were the only one.
-    #[inline]
+    #[inline(always)] // Asked at every vertex: its answer is large.
     pub fn sample(
         &self,
         scene: &(impl Textures + Shapes),

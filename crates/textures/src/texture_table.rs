@@ -2,7 +2,6 @@
 
 use crate::decode::ImageChannel;
 use crate::pixels::Image;
-use crate::texture::TextureModel;
 use crate::{Constant, Texture};
 use etalon_params::{Node, Span};
 use etalon_spectrum::Spectrum;
@@ -124,7 +123,7 @@ impl TextureTable {
     }
 
     /// The spectrum at a point, for the four wavelengths `lambda` (nm).
-    #[inline]
+    #[inline(always)] // What is the same everywhere takes no call of what may be anything.
     pub fn spectrum(
         &self,
         id: TextureId,
@@ -133,10 +132,20 @@ impl TextureTable {
         lambda: Vec4,
     ) -> Vec4 {
         match self.get(id) {
-            // Apart, so that what is the same everywhere takes no call of what may be anything.
-            Texture::Constant(constant) => constant.spectrum(self, shapes, at, lambda),
-            texture => texture.spectrum(self, shapes, at, lambda),
+            Texture::Constant(constant) => constant.spectrum.eval(lambda),
+            texture => self.varying_spectrum(texture, shapes, at, lambda),
         }
+    }
+
+    #[inline(never)]
+    fn varying_spectrum(
+        &self,
+        texture: &Texture,
+        shapes: &impl Shapes,
+        at: &TexturePoint,
+        lambda: Vec4,
+    ) -> Vec4 {
+        texture.spectrum(self, shapes, at, lambda)
     }
 
     /// A number at a point: the luminance of colours.

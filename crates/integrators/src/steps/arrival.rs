@@ -32,7 +32,7 @@ pub(crate) struct Arriving<'a> {
 
 impl Arriving<'_> {
     /// Where the path arrives along `ray`, whose nearest surface is `hit`. Lights at infinity are nothing if it does not see them.
-    #[inline]
+    #[inline(always)] // So that the surface is made where it stays.
     pub(crate) fn at<W: World>(
         &self,
         world: &W,
