@@ -34,14 +34,12 @@ def main():
     parser.add_argument("-D", "--define", action="append", default=[], metavar="KEY=VALUE")
     arguments = parser.parse_args()
 
+    import drjit as dr
     import mitsuba as mi
     import numpy as np
 
     mi.set_variant(arguments.variant)
-    if arguments.variant.startswith("llvm"):
-        import drjit as dr
-
-        dr.set_thread_count(arguments.threads)
+    dr.set_thread_count(arguments.threads)
     defines = dict(pair.split("=", 1) for pair in arguments.define)
     scene = load(mi, arguments.variant, arguments.scene, defines, arguments.filter)
 

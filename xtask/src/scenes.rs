@@ -8,7 +8,7 @@ mod brilliant;
 mod forest;
 mod lamps;
 mod leaf;
-mod ply;
+pub(crate) mod ply;
 mod pool;
 mod relief;
 mod sequence;

@@ -1,10 +1,22 @@
 //! Triangle meshes, written as binary little-endian PLY files.
 
+use etalon_transport::MeshData;
+
 /// A triangle mesh.
 #[derive(Default)]
 pub(crate) struct Mesh {
     vertices: Vec<[f64; 3]>,
     triangles: Vec<[u32; 3]>,
+}
+
+impl From<&MeshData> for Mesh {
+    fn from(data: &MeshData) -> Self {
+        let corner = |p: &glam::Vec3| p.to_array().map(f64::from);
+        Self {
+            vertices: data.positions.iter().map(corner).collect(),
+            triangles: data.triangles.clone(),
+        }
+    }
 }
 
 impl Mesh {

@@ -4,12 +4,15 @@
 //! noise is its relative variance, the mean over pixels of var / (mean² + 0.01) of the luminance;
 //! efficiency is 1 / (relative variance × time), with the shortest time of each program.
 
+mod baseline;
+mod cpu_time;
 mod opponent;
 mod pictures;
 mod table;
 
 use crate::references::mitsuba;
 use clap::ValueEnum;
+use cpu_time::cpu_seconds;
 use etalon_film::{BoxFilter, Filter, Gaussian};
 use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderOptions};
 use etalon_sampling::SamplerKind;
@@ -20,17 +23,24 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::sync::Arc;
 use table::TableRow;
 
+/// The exit code of a check that could not be made.
+const COULD_NOT_MEASURE: u8 = 2;
+
 /// Which scenes, and how.
-#[derive(clap::Args)]
+#[derive(Clone, clap::Args)]
 #[command(
-    after_help = "Mitsuba takes part if an interpreter has it: the one that ETALON_PYTHON names, or target/venv, which\n`cargo xtask references` makes. Its LLVM variants need LLVM 17 or later.\n\nExamples:\n  cargo xtask speed\n  cargo xtask speed --filter gaussian --only cornell\n  cargo xtask speed ~/scenes/*.xml --seeds 32 --json speed.json"
+    after_help = "Exit code of --check: 0 if no ratio fell, 1 if one did, 2 if it could not be measured, 3 if Mitsuba is not\ninstalled.\n\nMitsuba takes part if an interpreter has it: the one that ETALON_PYTHON names, or target/venv, which\n`cargo xtask references` makes. Its LLVM variants need LLVM 17 or later.\n\nExamples:\n  cargo xtask speed\n  cargo xtask speed --filter gaussian --only cornell\n  cargo xtask speed ~/scenes/*.xml --seeds 32 --json speed.json\n  cargo xtask speed --check"
 )]
 pub(crate) struct Arguments {
     /// Scenes to render in place of those of `benches/speed.toml`
     scenes: Vec<PathBuf>,
+    /// Hold samples per second over Mitsuba's to `benches/speed-baseline.toml`, which says how both render
+    #[arg(long, conflicts_with_all = ["scenes", "spp", "seeds", "filter", "sampler", "threads", "cpu_time", "variant", "defines", "json"])]
+    check: bool,
     /// Only scenes of the list whose names contain this
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
@@ -49,6 +59,9 @@ pub(crate) struct Arguments {
     /// Threads of both programs
     #[arg(long, value_name = "T", default_value_t = 2)]
     threads: u32,
+    /// Take the processor time of all threads for the time of a picture: other programs change it little
+    #[arg(long)]
+    cpu_time: bool,
     /// Variant of Mitsuba
     #[arg(long, default_value = "llvm_ad_spectral")]
     variant: String,
@@ -58,6 +71,19 @@ pub(crate) struct Arguments {
     /// Write the numbers as JSON to this file, too
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// The processor time of a process so far, if that is to be taken.
+    fn cpu_seconds(&self, process: u32) -> Result<Option<f64>, String> {
+        (self.cpu_time.then(|| cpu_seconds(process))).transpose()
+    }
+
+    /// Whether a scene of this name is to be measured.
+    fn wants(&self, name: &str) -> bool {
+        let only = self.only.as_ref().map(|only| only.to_lowercase());
+        only.is_none_or(|only| name.to_lowercase().contains(&only))
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -110,27 +136,47 @@ impl SamplerChoice {
 #[serde(deny_unknown_fields)]
 struct List {
     defines: Defines,
-    scenes: Vec<Entry>,
+    scenes: Vec<SceneEntry>,
 }
 
 type Defines = BTreeMap<String, toml::Value>;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Entry {
+struct SceneEntry {
     name: String,
     scene: PathBuf,
     #[serde(default)]
     defines: Defines,
 }
 
-/// Measures, and prints the table.
-pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
-    let entries = entries(arguments)?;
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(arguments.threads as usize)
+/// Measures, or checks.
+pub(crate) fn run(arguments: &Arguments) -> ExitCode {
+    let done = match arguments.check {
+        true => baseline::check(arguments).map(baseline::CheckOutcome::exit_code),
+        false => compare(arguments).map(|()| ExitCode::SUCCESS),
+    };
+    done.unwrap_or_else(|message| {
+        eprintln!("error: {message}");
+        match arguments.check {
+            true => ExitCode::from(COULD_NOT_MEASURE),
+            false => ExitCode::FAILURE,
+        }
+    })
+}
+
+/// Threads for Etalon.
+fn pool(threads: u32) -> Result<rayon::ThreadPool, String> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads as usize)
         .build()
-        .map_err(|e| e.to_string())?;
+        .map_err(|e| e.to_string())
+}
+
+/// Measures, and prints the table.
+fn compare(arguments: &Arguments) -> Result<(), String> {
+    let entries = entries(arguments)?;
+    let pool = pool(arguments.threads)?;
     let python = mitsuba::installed();
     if python.is_none() {
         eprintln!("Mitsuba is not there: Etalon alone");
@@ -164,9 +210,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
 }
 
 /// What is to be measured.
-fn entries(arguments: &Arguments) -> Result<Vec<Entry>, String> {
+fn entries(arguments: &Arguments) -> Result<Vec<SceneEntry>, String> {
     if !arguments.scenes.is_empty() {
-        let entry = |scene: &PathBuf| Entry {
+        let entry = |scene: &PathBuf| SceneEntry {
             name: scene.display().to_string(),
             scene: scene.clone(),
             defines: Defines::new(),
@@ -177,21 +223,22 @@ fn entries(arguments: &Arguments) -> Result<Vec<Entry>, String> {
     let wrong = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
     let text = fs::read_to_string(&path).map_err(|e| wrong(&e))?;
     let list: List = toml::from_str(&text).map_err(|e| wrong(&e))?;
-    let wanted = |entry: &Entry| {
-        let only = arguments.only.as_ref().map(|name| name.to_lowercase());
-        only.is_none_or(|name| entry.name.to_lowercase().contains(&name))
-    };
-    let all = list.scenes.into_iter().filter(wanted).map(|entry| Entry {
-        scene: folders::scenes().join(&entry.scene),
-        defines: list
-            .defines
-            .clone()
-            .into_iter()
-            .chain(entry.defines)
-            .collect(),
-        name: entry.name,
-    });
-    let entries: Vec<Entry> = all.collect();
+    let wanted = |entry: &SceneEntry| arguments.wants(&entry.name);
+    let all = list
+        .scenes
+        .into_iter()
+        .filter(wanted)
+        .map(|entry| SceneEntry {
+            scene: folders::scenes().join(&entry.scene),
+            defines: list
+                .defines
+                .clone()
+                .into_iter()
+                .chain(entry.defines)
+                .collect(),
+            name: entry.name,
+        });
+    let entries: Vec<SceneEntry> = all.collect();
     if entries.is_empty() {
         return Err("no scene of the list has such a name".to_owned());
     }
@@ -201,7 +248,7 @@ fn entries(arguments: &Arguments) -> Result<Vec<Entry>, String> {
 /// Renders a scene's pictures with both programs, in turn.
 fn measure(
     arguments: &Arguments,
-    entry: &Entry,
+    entry: &SceneEntry,
     python: Option<&Path>,
 ) -> Result<TableRow, String> {
     let mut defines: Vec<(String, String)> = claim::pairs(&entry.defines).collect();
@@ -225,7 +272,13 @@ fn measure(
             ..RenderOptions::default()
         };
         let plan = pipeline::plan(&loaded, &options);
+        let before = arguments.cpu_seconds(std::process::id())?;
         let rendered = pipeline::render(&loaded, &plan, &()).map_err(|e| e.message)?;
+        let after = arguments.cpu_seconds(std::process::id())?;
+        let seconds = match before.zip(after) {
+            Some((before, after)) => after - before,
+            None => rendered.time.as_secs_f64(),
+        };
         samples = rendered.outcome.samples;
         let image = &rendered.developed.image;
         let rgb = ["R", "G", "B"].map(|name| image.channel(name));
@@ -233,9 +286,9 @@ fn measure(
             return Err("its film has no colours".to_owned());
         };
         let pixels = r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b]);
-        ours.add(pixels, rendered.time.as_secs_f64());
+        ours.add(pixels, seconds);
         if let Some(opponent) = &mut opponent {
-            let (pixels, seconds) = opponent.picture(seed)?;
+            let (pixels, seconds) = opponent.picture(arguments, seed)?;
             theirs.add(pixels, seconds);
         }
     }

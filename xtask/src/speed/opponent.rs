@@ -73,14 +73,18 @@ impl Opponent {
     /// Has it render a picture: its pixels, and how long it took (s).
     pub(super) fn picture(
         &mut self,
+        arguments: &Arguments,
         seed: u32,
     ) -> Result<(impl Iterator<Item = [f32; 3]> + use<>, f64), String> {
+        let before = arguments.cpu_seconds(self.process.id())?;
         let order = writeln!(self.input, "{seed} {}", self.file.display());
         order.map_err(|e| format!("Mitsuba: {e}"))?;
         let said = self.answer()?;
-        let seconds: f64 = said
+        let wall: f64 = said
             .parse()
             .map_err(|_| format!("Mitsuba said `{said}` in place of its time"))?;
+        let after = arguments.cpu_seconds(self.process.id())?;
+        let seconds = (before.zip(after)).map_or(wall, |(before, after)| after - before);
         let bytes = fs::read(&self.file).map_err(|e| format!("{}: {e}", self.file.display()))?;
         let numbers: Vec<f32> = bytes
             .as_chunks()

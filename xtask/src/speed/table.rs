@@ -12,6 +12,11 @@ pub(super) struct TableRow {
     pub(super) mitsuba: Option<Facts>,
 }
 
+/// Etalon's samples per second over Mitsuba's, if both rendered.
+pub(super) fn rate_ratio(row: &TableRow) -> Option<f64> {
+    Some(row.etalon.rate() / row.mitsuba.as_ref()?.rate())
+}
+
 /// The error of a sum or difference of independent numbers with these.
 fn both(a: f64, b: f64) -> f64 {
     (a * a + b * b).sqrt()
