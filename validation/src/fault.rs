@@ -13,7 +13,7 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     BsdfOf, Emission, EmissionPdf, Hit, LegacyPhong, LightId, LightSample, LightSampleContext,
-    LightVariety, Lights, Media, MediumId, MediumOf, Ray, SamplePdf, Sensor, ShadowQuery,
+    LightVariety, Lights, Media, MediumId, MediumOf, NoLanes, Ray, SamplePdf, Sensor, ShadowQuery,
     SurfaceInteraction, Surfaces, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
@@ -245,6 +245,12 @@ impl<W: World> World for Faulty<'_, W> {
     type Media = Self;
     type Camera = W::Camera;
     type Sensor = Self;
+
+    type Lanes = NoLanes;
+
+    fn lanes(&self) -> Option<&NoLanes> {
+        None
+    }
 
     fn surfaces(&self) -> &Self {
         self

@@ -17,6 +17,8 @@ mod bsdf_at_point;
 mod bxdf;
 mod inputs;
 pub mod interface;
+mod lane_bsdf_at_point;
+mod lane_model;
 pub mod lobe;
 pub mod lobe_list;
 mod material_flags;
@@ -27,6 +29,8 @@ pub mod tilt;
 
 pub use bsdf_at_point::{BsdfAtPoint, MAX_LOBES};
 pub use bxdf::Bxdf;
+pub use lane_bsdf_at_point::LaneBsdfAtPoint;
+pub use lane_model::LaneModel;
 pub use lobe::Lobe;
 pub use lobe_list::{LobeList, ShadingContext};
 pub use material_flags::MaterialFlags;

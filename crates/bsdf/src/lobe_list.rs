@@ -8,7 +8,7 @@ use etalon_transport::{SurfaceInteraction, TextureId, TexturePoint, Textures};
 use glam::{Vec3, Vec4};
 
 /// The context in which a material is resolved: point, textures and wavelengths.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct ShadingContext<'t, T> {
     /// The textures of the scene.
     pub textures: &'t T,
@@ -27,6 +27,15 @@ pub struct ShadingContext<'t, T> {
     /// Unit shading normal, outside.
     pub shading_normal: Vec3,
 }
+
+impl<T> Clone for ShadingContext<'_, T> {
+    #[inline]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for ShadingContext<'_, T> {}
 
 impl<'t, T: Textures> ShadingContext<'t, T> {
     /// A point of a surface.

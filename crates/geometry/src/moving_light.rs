@@ -9,9 +9,11 @@ use crate::geometry::Geometry;
 use crate::instance::Group;
 use crate::placement::Placement;
 use crate::shapes::Shape;
+use etalon_math::lane::Lane;
 use etalon_math::{DirectionCone, float64};
 use etalon_transport::{
-    LightSampleContext, SampledPoint, ShapeId, Shapes, SurfacePoint, TexturePoint,
+    LanePoint, LaneReceiver, LightSampleContext, SampledPoint, ShapeId, Shapes, SurfacePoint,
+    TexturePoint,
 };
 use glam::{DVec3, Vec2, Vec3};
 
@@ -163,6 +165,17 @@ impl Shapes for Geometry {
             sampled.point.texture.shape = shape;
         }
         sampled
+    }
+
+    #[inline]
+    fn lanes_toward<F: Lane>(
+        &self,
+        shape: ShapeId,
+        from: &LaneReceiver<F>,
+        u: [F; 2],
+    ) -> Option<LanePoint<F>> {
+        let carried = self.attachments[shape.0 as usize].carrier.is_some();
+        (!carried).then(|| self.shape(shape).lanes_toward(from, u))?
     }
 
     fn density_toward(&self, shape: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32 {

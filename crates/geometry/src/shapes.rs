@@ -40,8 +40,11 @@ use curves::Curves;
 use cylinder::Cylinder;
 use disk::Disk;
 use etalon_math::DirectionCone;
+use etalon_math::lane::{Lane, Select};
 use etalon_params::Params;
-use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
+use etalon_transport::{
+    Build, LanePoint, LaneReceiver, LightSampleContext, SampledPoint, SurfacePoint,
+};
 use extrusion::Extrusion;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use implicit::Implicit;
@@ -384,6 +387,20 @@ impl Shape {
             sampled = None;
         }
         sampled
+    }
+
+    /// The same in lanes; `None` if points must be chosen one by one.
+    #[inline]
+    pub(crate) fn lanes_toward<F: Lane>(
+        &self,
+        from: &LaneReceiver<F>,
+        u: [F; 2],
+    ) -> Option<LanePoint<F>> {
+        let mut point = ask!(self, shape => ShapeModel::lanes_toward(shape, from, u))?;
+        let density = point.density;
+        let finite = density.gt(F::ZERO) & density.lt(F::splat(f32::INFINITY));
+        point.density = finite.select(density, F::ZERO);
+        Some(point)
     }
 
     /// The density per unit solid angle with which [`Shape::sample_toward`] from `from` chooses

@@ -21,6 +21,7 @@ pub(crate) mod batch;
 mod diffusion;
 mod equiangular;
 pub(crate) mod hooks;
+mod lanes;
 mod media;
 pub(crate) mod state;
 
@@ -93,7 +94,9 @@ pub(crate) fn follow<'w, W: World, S: Sampler, C: PathHooks, const N: usize>(
     while batch.goes_on() {
         batch.intersect(world, config);
         batch.arrive(|path, ray, hit| arrive(world, config, path, (ray, hit)));
-        batch.scatter(|path, ray, vertex| scatter(world, config, path, (ray, vertex)));
+        batch.scatter((world, config), |path, ray, vertex| {
+            scatter(world, config, path, (ray, vertex))
+        });
         batch.trace_shadows(world);
     }
 }
@@ -118,7 +121,7 @@ fn arrive<'w, W: World, S: Sampler, C: PathHooks>(
         path.enter(world, &light, [ray.medium, next.medium]);
         return ControlFlow::Break(Step::straight(next));
     }
-    let last = path.depth == config.limits.max_depth;
+    let last = path.is_last(config);
     if last && config.counts_null && path.alpha > 0.0 && hit.is_some_and(|hit| !emits(hit)) {
         return ControlFlow::Break(Step::END);
     }
@@ -140,7 +143,7 @@ fn scatter<'w, W: World, S: Sampler, C: PathHooks>(
     let bsdf = (path.hooks).wrap_bsdf(vertex, wo, || {
         world.surfaces().bsdf(vertex, wo, &path.wavelengths)
     });
-    let last = path.depth == config.limits.max_depth;
+    let last = path.is_last(config);
     let passes = !config.counts_null && bsdf.null_probability() != Vec4::ZERO;
     if last && !passes {
         // No direction is sampled at the last vertex: its null probability alone estimates alpha.

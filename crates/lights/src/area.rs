@@ -11,17 +11,20 @@
 //! Points toward an observer are chosen by the shape; emitted particles start uniformly over the
 //! area, with directions in proportion to cos θ.
 
-use crate::light::extent_of_shape;
+use crate::light::{anywhere, extent_of_shape};
 use crate::light_model::LightModel;
 use crate::{BoundingSphere, LightExtent};
 use core::f32::consts::FRAC_1_PI;
+use etalon_math::lane::{Lane, Mask, Spectral, Vector};
+use etalon_math::offset::offset_origins;
 use etalon_math::{Density, SolidAngle};
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, Ray,
-    SamplePdf, SampledPoint, ShapeId, Shapes, SpectrumKind, SurfacePoint, TextureId, Textures,
+    Build, Emission, EmissionPdf, LaneLightSample, LanePoint, LaneReceiver, LightId, LightKind,
+    LightSample, LightSampleContext, Ray, SamplePdf, SampledPoint, ShapeId, Shapes, SpectrumKind,
+    SurfacePoint, TextureId, Textures, is_varying,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -30,6 +33,8 @@ use glam::{Vec2, Vec3, Vec4};
 pub struct AreaLight {
     /// The shape.
     pub shape: ShapeId,
+    /// Whether its radiance varies over the shape.
+    pub varies: bool,
     /// Its radiance (W·m⁻²·sr⁻¹·nm⁻¹).
     pub radiance: TextureId,
 }
@@ -39,9 +44,20 @@ impl AreaLight {
     pub fn from_params(params: &Params<'_>, shape: ShapeId, build: &mut dyn Build) -> Self {
         Self {
             shape,
+            varies: is_varying(params, "radiance", build),
             radiance: build.texture(params, "radiance", Some(1.0), SpectrumKind::Emission),
         }
     }
+}
+
+/// Whether points of a surface send light to receivers, the directions to them, and the ends of shadow rays.
+#[inline(always)]
+fn connected<F: Lane>(point: &LanePoint<F>, from: F::Vector) -> (F::Mask, F::Vector, F::Vector) {
+    let to = point.position - from;
+    // Also false where the two coincide, or are farther apart than numbers go.
+    let found = point.density.gt(F::ZERO) & point.normal.dot_product(to).lt(F::ZERO);
+    let target = offset_origins::<F>(point.position, point.error, point.normal, -to);
+    (found, to.over(to.norm()), target)
 }
 
 impl LightModel for AreaLight {
@@ -83,21 +99,63 @@ impl LightModel for AreaLight {
         let sampled = scene.sample_toward(self.shape, from, u);
         let SampledPoint { point, density } = sampled.as_ref()?;
         let density = *density;
-        let to = point.position - from.position;
-        // Also false where the two coincide, or are farther apart than numbers go.
-        if !(density > 0.0 && point.normal.dot(to) < 0.0) {
+        let seen = LanePoint::<f32> {
+            position: point.position,
+            error: point.error,
+            normal: point.normal,
+            density,
+        };
+        let (found, direction, target) = connected(&seen, from.position);
+        if !found {
             return None;
         }
-        let direction = to / to.length();
         Some(LightSample {
             direction,
-            target: Some(point.origin_toward(from.position)),
+            target: Some(target),
             radiance: self.emitted(scene, point, -direction, wavelengths),
             chance: SamplePdf::Continuous(Density::uniform(density)),
             cos: -point.normal.dot(direction),
             origin: LightKind::Surface,
             extinction: Vec4::ONE,
             light: LightId::NONE,
+        })
+    }
+
+    fn has_lanes(&self, shapes: &impl Shapes) -> bool {
+        let from = LaneReceiver::<f32> {
+            position: Vec3::ZERO,
+            normal: Vec3::ZERO,
+            one_sided: false,
+            time: 0.0,
+        };
+        !self.varies && shapes.lanes_toward(self.shape, &from, [0.5; 2]).is_some()
+    }
+
+    #[inline]
+    fn sample_lanes<F: Lane>(
+        &self,
+        scene: &(impl Textures + Shapes),
+        from: &LaneReceiver<F>,
+        wavelengths: &[Wavelengths],
+        u: [F; 2],
+    ) -> Option<LaneLightSample<F>> {
+        if self.varies {
+            return None;
+        }
+        let point = scene.lanes_toward(self.shape, from, u)?;
+        let (found, direction, target) = connected(&point, from.position);
+        let at = anywhere();
+        let radiance = |i: usize| scene.spectrum(self.radiance, &at, wavelengths[i].lambda);
+        let shines = point.normal.dot_product(-direction).gt(F::ZERO);
+        let dark = F::Spectrum::uniform(F::ZERO);
+        Some(LaneLightSample {
+            found,
+            direction,
+            target,
+            has_target: F::Mask::splat(true),
+            radiance: F::Spectrum::choose(shines, F::Spectrum::of_lanes(radiance), dark),
+            chance: point.density,
+            is_delta: F::Mask::splat(false),
         })
     }
 

@@ -5,12 +5,13 @@ use crate::{
     AreaLight, BoundingSphere, ConstantLight, DirectionalArea, DirectionalLight, EnvironmentMap,
     LightExtent, PointLight, Projector, SpotLight, SunSky,
 };
+use etalon_math::lane::Lane;
 use etalon_math::{Density, DirectionCone, SolidAngle};
 use etalon_params::{Params, plugins};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightSample, LightSampleContext, ShapeId, Shapes,
-    SurfaceInteraction, SurfacePoint, TexturePoint, Textures,
+    Build, Emission, EmissionPdf, LaneLightSample, LaneReceiver, LightSample, LightSampleContext,
+    ShapeId, Shapes, SurfaceInteraction, SurfacePoint, TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -190,6 +191,23 @@ impl Light {
         u: Vec2,
     ) -> Option<LightSample> {
         ask!(self, light => light.sample(scene, from, wavelengths, u))
+    }
+
+    /// Whether its directions can be sampled in lanes.
+    pub fn has_lanes(&self, shapes: &impl Shapes) -> bool {
+        ask!(self, light => light.has_lanes(shapes))
+    }
+
+    /// Samples directions in lanes; `None` if it has none.
+    #[inline]
+    pub fn sample_lanes<F: Lane>(
+        &self,
+        scene: &(impl Textures + Shapes),
+        from: &LaneReceiver<F>,
+        wavelengths: &[Wavelengths],
+        u: [F; 2],
+    ) -> Option<LaneLightSample<F>> {
+        ask!(self, light => light.sample_lanes(scene, from, wavelengths, u))
     }
 
     /// Whether all its samples bring `from` the same irradiance if nothing is in the way.

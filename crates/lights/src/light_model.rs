@@ -1,10 +1,12 @@
 //! The methods of a light, with defaults that most of them share.
 
 use crate::{BoundingSphere, LightExtent};
+use etalon_math::lane::Lane;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, SurfacePoint, Textures,
+    Emission, EmissionPdf, LaneLightSample, LaneReceiver, LightSample, LightSampleContext, Shapes,
+    SurfacePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -46,6 +48,23 @@ pub(crate) trait LightModel {
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample>;
+
+    /// Whether its directions can be sampled in lanes.
+    fn has_lanes(&self, _: &impl Shapes) -> bool {
+        false
+    }
+
+    /// Samples directions in lanes; `None` if it has none.
+    #[inline]
+    fn sample_lanes<F: Lane>(
+        &self,
+        _: &(impl Textures + Shapes),
+        _from: &LaneReceiver<F>,
+        _: &[Wavelengths],
+        _u: [F; 2],
+    ) -> Option<LaneLightSample<F>> {
+        None
+    }
 
     /// Whether all its samples bring `from` the same irradiance if nothing is in the way.
     #[inline]

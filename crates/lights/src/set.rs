@@ -3,11 +3,13 @@
 use crate::{
     BoundingSphere, Candidate, Far, Light, LightDescription, LightSampler, LightSamplerKind,
 };
+use etalon_math::lane::Lane;
 use etalon_math::{DeltaProbability, Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Emission, EmissionPdf, LightCount, LightId, LightKind, LightSample, LightSampleContext,
-    LightVariety, SamplePdf, Shapes, SurfaceInteraction, SurfacePoint, Textures,
+    Emission, EmissionPdf, LaneLightSample, LaneReceiver, LightCount, LightId, LightKind,
+    LightSample, LightSampleContext, LightVariety, SamplePdf, Shapes, SurfaceInteraction,
+    SurfacePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -188,6 +190,25 @@ impl LightSet {
             SamplePdf::Discrete(DeltaProbability(p)) => *p *= choice.probability,
         }
         sampled
+    }
+
+    /// Whether directions can be sampled in lanes.
+    pub fn has_lanes(&self, shapes: &impl Shapes) -> bool {
+        (self.lone.map(|light| self.get(light))).is_some_and(|light| light.has_lanes(shapes))
+    }
+
+    /// [`LightSet::sample`] in lanes; `None` if it has none.
+    #[inline]
+    pub fn sample_lanes<F: Lane>(
+        &self,
+        scene: &(impl Textures + Shapes),
+        from: &LaneReceiver<F>,
+        wavelengths: &[Wavelengths],
+        u: [F; 2],
+    ) -> Option<LaneLightSample<F>> {
+        // The only light is chosen with probability 1.
+        self.get(self.lone?)
+            .sample_lanes(scene, from, wavelengths, u)
     }
 
     /// How samples of [`LightSet::sample`] from `from` vary.

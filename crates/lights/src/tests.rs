@@ -1,14 +1,15 @@
 //! What the tests of lights share: a small world of textures and rectangles.
 
 use crate::{BoundingSphere, Light, LightDescription, LightSamplerKind};
+use etalon_math::lane::Lane;
 use etalon_math::{DirectionCone, Frame};
 use etalon_params::{Class, Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value};
 use etalon_sampling::{Independent, Sampler};
 use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
-    AssetError, Assets, Build, InstanceId, LightId, LightSampleContext, MaterialId, MeshData,
-    MeshFormat, SampledPoint, ShapeId, Shapes, Shutter, SpectrumKind, SurfaceInteraction,
-    SurfacePoint, TextureId, TexturePoint, Textures,
+    AssetError, Assets, Build, InstanceId, LanePoint, LaneReceiver, LightId, LightSampleContext,
+    MaterialId, MeshData, MeshFormat, SampledPoint, ShapeId, Shapes, Shutter, SpectrumKind,
+    SurfaceInteraction, SurfacePoint, TextureId, TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
@@ -221,6 +222,15 @@ impl Shapes for SmallWorld {
         let point = SurfacePoint::from(&self.vertex(shape, u));
         let density = self.density_toward(shape, from, &point);
         Some(SampledPoint { point, density })
+    }
+
+    fn lanes_toward<F: Lane>(
+        &self,
+        _: ShapeId,
+        _: &LaneReceiver<F>,
+        _: [F; 2],
+    ) -> Option<LanePoint<F>> {
+        None
     }
 
     fn density_toward(&self, _: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32 {

@@ -35,34 +35,7 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 /// of a quarter turn are exact. Polynomials fitted by ourselves (minimax, relative error < 10⁻¹⁰).
 #[inline]
 pub fn sin_cos_turns(turns: f32) -> (f32, f32) {
-    // The angle is (quarter + t)·π/2 with |t| ≤ ½; the subtraction is exact.
-    let quarters = 4.0 * turns;
-    // Adding 1½·2²³ rounds to an integer and leaves it in the lowest bits.
-    const ROUNDING: f32 = 12_582_912.0;
-    let rounded = quarters + ROUNDING;
-    let t = quarters - (rounded - ROUNDING);
-    let t2 = t * t;
-    // sin(π/2 · t) = t·(π/2 + small), with π/2 in two parts.
-    let tail = t2
-        .mul_add(1.581_950_6e-4, -4.681_261e-3)
-        .mul_add(t2, 7.969_258e-2)
-        .mul_add(t2, -0.645_964_1)
-        .mul_add(t2, -4.371_139e-8);
-    let sin = t.mul_add(core::f32::consts::FRAC_PI_2, t * tail);
-    let cos = t2
-        .mul_add(9.037_666e-4, -2.086_016_5e-2)
-        .mul_add(t2, 0.253_669_23)
-        .mul_add(t2, -1.233_700_5)
-        .mul_add(t2, 1.0);
-    let quadrant = rounded.to_bits();
-    // Odd quarters exchange the two: by bits, since a branch would be guessed wrong half the time.
-    let (sin, cos) = (sin.to_bits(), cos.to_bits());
-    let exchanged = (sin ^ cos) & (quadrant & 1).wrapping_neg();
-    let negative = |flag: u32| (flag & 2) << 30;
-    (
-        f32::from_bits(sin ^ exchanged ^ negative(quadrant)),
-        f32::from_bits(cos ^ exchanged ^ negative(quadrant.wrapping_add(1))),
-    )
+    crate::lane::sin_cos_turns(turns)
 }
 
 /// Tangent of `x` radians.

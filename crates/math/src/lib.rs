@@ -1,5 +1,5 @@
 //! Geometry-free mathematics of the renderer: frames, cones, transforms, densities that carry their
-//! measure, error-bounded offsets, polynomial roots and reproducible elementary functions.
+//! measure, error-bounded offsets, polynomial roots and reproducible elementary functions, and SIMD lanes.
 //!
 //! Nothing here knows of light.
 
@@ -15,6 +15,7 @@ pub mod float64;
 pub mod frame;
 pub mod fresnel;
 pub mod keyframes;
+pub mod lane;
 pub mod motion;
 pub mod noise;
 pub mod offset;

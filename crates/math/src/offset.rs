@@ -5,6 +5,7 @@
 //! box's extent in that direction, and by as much as rounding could take back (Pharr, Jakob,
 //! Humphreys 2023, "Physically Based Rendering", 4th ed., section 6.8). No epsilon scaled by the scene.
 
+use crate::lane::{Lane, Vector};
 use glam::Vec3;
 
 /// γₙ = n·ε / (1 − n·ε): the bound on the relative error of n rounded operations (Higham 2002),
@@ -20,10 +21,21 @@ pub const fn gamma(n: u32) -> f32 {
 /// ±`error` in each coordinate, on a surface with unit geometric `normal` (either side).
 #[inline]
 pub fn offset_origin(position: Vec3, error: Vec3, normal: Vec3, direction: Vec3) -> Vec3 {
+    offset_origins::<f32>(position, error, normal, direction)
+}
+
+/// The same in lanes.
+#[inline(always)]
+pub fn offset_origins<F: Lane>(
+    position: F::Vector,
+    error: F::Vector,
+    normal: F::Vector,
+    direction: F::Vector,
+) -> F::Vector {
     // |p|·ε covers the rounding of the sum below, twice over.
-    let reach = error + position.abs() * f32::EPSILON;
-    let distance = normal.abs().dot(reach);
-    position + normal * distance.copysign(direction.dot(normal))
+    let reach = error + position.magnitudes() * F::splat(f32::EPSILON);
+    let distance = normal.magnitudes().dot_product(reach);
+    position + normal * distance.copysign(direction.dot_product(normal))
 }
 
 #[cfg(test)]

@@ -34,7 +34,8 @@ pub use cap::{
 };
 pub use disk::{CONCENTRIC_DISK_DENSITY, concentric_disk_to_square, square_to_concentric_disk};
 pub use hemisphere::{
-    cosine_hemisphere_density, cosine_hemisphere_to_square, square_to_cosine_hemisphere,
+    cosine_hemisphere, cosine_hemisphere_density, cosine_hemisphere_to_square,
+    square_to_cosine_hemisphere,
 };
 pub use line::{
     interval_to_linear, interval_to_tent, linear_density, linear_to_interval, tent_density,

@@ -1,5 +1,6 @@
 //! The parts of a scene, which all its clones share, as surfaces, lights and media.
 
+mod lanes;
 mod lights;
 mod media;
 mod surfaces;
@@ -11,14 +12,18 @@ use etalon_bsdf::Material;
 use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
 use etalon_spectrum::Sensor;
-use etalon_transport::{EmissionPdf, MediumId};
+use etalon_transport::{EmissionPdf, LaneKind, MediumId};
 use std::sync::Arc;
 
 /// The parts that scenes with different sensors share.
 pub struct Parts {
     pub(crate) camera: AnyCamera,
+    /// Whether vertices are shaded in vector lanes: without media, with lights that are sampled so.
+    pub(crate) in_lanes: bool,
     pub(crate) space: Space,
     pub(crate) materials: Vec<Material>,
+    /// The kinds of their points.
+    pub(crate) lane_kinds: Vec<Option<LaneKind>>,
     pub(crate) lights: LightSet,
     /// Whether any material has a null interaction, so that shadow rays must evaluate materials.
     pub(crate) has_null: bool,

@@ -46,9 +46,12 @@ impl Scene {
             shining = MediumLights::find(&space, outermost, lights.total_power());
             rays::take();
         }
+        let in_lanes = !space.has_media && lights.has_lanes(&space.lookup);
         let parts = Parts {
             camera,
+            in_lanes,
             has_null: materials.iter().any(Material::has_null),
+            lane_kinds: materials.iter().map(Material::lane_kind).collect(),
             materials,
             lights,
             space,
@@ -70,6 +73,12 @@ impl World for Scene {
     type Media = Parts;
     type Camera = AnyCamera;
     type Sensor = Sensor;
+    type Lanes = Parts;
+
+    #[inline]
+    fn lanes(&self) -> Option<&Parts> {
+        self.parts.in_lanes.then_some(&self.parts)
+    }
 
     #[inline]
     fn surfaces(&self) -> &Parts {

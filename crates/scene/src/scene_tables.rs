@@ -2,10 +2,11 @@
 
 use etalon_geometry::Geometry;
 use etalon_math::DirectionCone;
+use etalon_math::lane::Lane;
 use etalon_textures::TextureTable;
 use etalon_transport::{
-    LightSampleContext, SampledPoint, ShapeId, Shapes, SurfacePoint, TextureId, TexturePoint,
-    Textures,
+    LanePoint, LaneReceiver, LightSampleContext, SampledPoint, ShapeId, Shapes, SurfacePoint,
+    TextureId, TexturePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -73,6 +74,15 @@ impl Shapes for SceneTables {
         u: Vec2,
     ) -> Option<SampledPoint> {
         self.geometry.sample_toward(shape, from, u)
+    }
+
+    fn lanes_toward<F: Lane>(
+        &self,
+        shape: ShapeId,
+        from: &LaneReceiver<F>,
+        u: [F; 2],
+    ) -> Option<LanePoint<F>> {
+        self.geometry.lanes_toward(shape, from, u)
     }
 
     #[inline]

@@ -2,10 +2,11 @@
 
 use crate::{TextureReader, TextureTable};
 use etalon_images::{Frame, Image, exr};
+use etalon_math::lane::Lane;
 use etalon_params::{Class, Diagnostics, FileId, Node, Property, Span, Spanned, Value};
 use etalon_transport::{
-    AssetError, Assets, LightSampleContext, MeshData, MeshFormat, SampledPoint, ShapeId, Shapes,
-    SpectrumKind, SurfacePoint, TextureId, TexturePoint,
+    AssetError, Assets, LanePoint, LaneReceiver, LightSampleContext, MeshData, MeshFormat,
+    SampledPoint, ShapeId, Shapes, SpectrumKind, SurfacePoint, TextureId, TexturePoint,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
@@ -105,6 +106,14 @@ impl Shapes for OneShape {
         panic!("textures do not sample shapes")
     }
     fn sample_toward(&self, _: ShapeId, _: &LightSampleContext, _: Vec2) -> Option<SampledPoint> {
+        None
+    }
+    fn lanes_toward<F: Lane>(
+        &self,
+        _: ShapeId,
+        _: &LaneReceiver<F>,
+        _: [F; 2],
+    ) -> Option<LanePoint<F>> {
         None
     }
     fn density_toward(&self, _: ShapeId, _: &LightSampleContext, _: &SurfacePoint) -> f32 {

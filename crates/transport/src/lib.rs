@@ -16,6 +16,7 @@ pub mod diffusion;
 pub mod film;
 pub mod ids;
 pub mod integrator;
+pub mod lanes;
 pub mod legacy_phong;
 pub mod light;
 pub mod light_sample_context;
@@ -41,6 +42,10 @@ pub use diffusion::{DiffusionProfile, NoProfile};
 pub use film::{Channel, Film, FilmSample, Placing, Sink, TileSink};
 pub use ids::{InstanceId, LightId, MaterialId, MediumId, ShapeId, TextureId};
 pub use integrator::{Integrator, Pass, PixelSample, Preparation, SampleJob};
+pub use lanes::{
+    LaneBsdf, LaneBsdfSample, LaneKind, LaneLightSample, LanePoint, LaneReceiver, LaneShading,
+    LaneVertices, NoLanes,
+};
 pub use legacy_phong::LegacyPhong;
 pub use light::{Emission, EmissionPdf, LightKind, LightSample, LightVariety};
 pub use light_sample_context::LightSampleContext;

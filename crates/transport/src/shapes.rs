@@ -1,6 +1,8 @@
 //! The contract of shapes as lights use them.
 
+use crate::lanes::{LanePoint, LaneReceiver};
 use crate::{LightSampleContext, ShapeId, SurfaceInteraction, TexturePoint};
+use etalon_math::lane::Lane;
 use etalon_math::{DirectionCone, offset_origin};
 use glam::{Vec2, Vec3};
 
@@ -76,6 +78,14 @@ pub trait Shapes {
         from: &LightSampleContext,
         u: Vec2,
     ) -> Option<SampledPoint>;
+
+    /// The same in lanes; `None` if the shape's points must be chosen one by one.
+    fn lanes_toward<F: Lane>(
+        &self,
+        shape: ShapeId,
+        from: &LaneReceiver<F>,
+        u: [F; 2],
+    ) -> Option<LanePoint<F>>;
 
     /// The density (sr⁻¹) with which [`Shapes::sample_toward`] from `from` chooses `at`.
     fn density_toward(&self, shape: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32;

@@ -17,8 +17,8 @@ pub use sensor::Sensor;
 pub use surfaces::Surfaces;
 
 use crate::{
-    Camera, Emission, EmissionPdf, LightId, LightSample, LightSampleContext, LightVariety,
-    MediumId, Ray, SurfaceInteraction,
+    Camera, Emission, EmissionPdf, LaneShading, LightId, LightSample, LightSampleContext,
+    LightVariety, MediumId, Ray, SurfaceInteraction,
 };
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
@@ -72,6 +72,12 @@ pub trait World: Sync {
     type Camera: Camera;
     /// Its sensor.
     type Sensor: Sensor;
+
+    /// What it does in vector lanes.
+    type Lanes: LaneShading;
+
+    /// Several vertices at once; `None` if it shades one at a time.
+    fn lanes(&self) -> Option<&Self::Lanes>;
 
     /// The surfaces.
     fn surfaces(&self) -> &Self::Surfaces;

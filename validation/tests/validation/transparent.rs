@@ -7,8 +7,9 @@
 use etalon_film::ExactFilm;
 use etalon_integrators::RenderPlan;
 use etalon_integrators::replay::Address;
-use etalon_render::pipeline::Loaded;
-use etalon_transport::Film;
+use etalon_render::pipeline::{LoadOptions, Loaded, load};
+use etalon_sampling::{ReplicateKind, SamplerKind};
+use etalon_transport::{Film, World};
 use etalon_validation::claim::{Budget, Claim, Estimator, Oracle};
 use etalon_validation::fault::{Faulty, PlantedFault};
 use etalon_validation::{folders, rendering};
@@ -155,5 +156,43 @@ fn a_fault_of_energy_reaches_what_media_emit() {
             "{}: {factor}",
             estimator.label()
         );
+    }
+}
+
+/// A room with a lamp, whose vertices are shaded in vector lanes; by a world around it, one by one.
+const LANES: &str = r#"<scene version="3.0.0">
+    <integrator type="path"><integer name="light_candidates" value="CANDIDATES"/><integer name="rr_depth" value="2"/></integrator>
+    <sensor type="perspective"><transform name="to_world"><lookat origin="0, -3, 1" target="0, 0, 0.3" up="0, 0, 1"/></transform>
+        <film type="hdrfilm"><integer name="width" value="24"/><integer name="height" value="24"/></film></sensor>
+    <shape type="rectangle"><transform name="to_world"><scale value="2"/></transform>
+        <bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape>
+    <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="-90"/><scale value="2"/><translate y="1"/></transform>
+        <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.2, 0.7, 0.3"/></bsdf>
+            <bsdf type="diffuse"><rgb name="reflectance" value="0.9, 0.2, 0.3"/></bsdf></bsdf></shape>
+    <shape type="sphere"><point name="center" value="0.3, 0, 0.4"/><float name="radius" value="0.4"/><bsdf type="dielectric"/></shape>
+    <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/><scale value="0.5"/><translate z="1.2"/></transform>
+        <emitter type="area"/></shape>
+</scene>"#;
+
+/// Mutants rejected: candidates of one lane that are chosen by another's number; Russian roulette that is not weighed.
+#[test]
+fn vertices_shaded_in_lanes_are_what_they_are_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("room.xml");
+    for candidates in ["1", "3"] {
+        let scene = LANES.replace("CANDIDATES", candidates);
+        std::fs::write(&path, scene).expect("a writable folder");
+        let loaded = load(&path, &LoadOptions::default()).expect("a scene");
+        assert!(loaded.compiled.scene.lanes().is_some());
+        let plan = RenderPlan {
+            seed: 1,
+            replicates: 1,
+            replicate_kind: ReplicateKind::Blocks,
+            share: None,
+            samples_per_replicate: 16,
+            sampler: SamplerKind::Sobol,
+        };
+        let alike = renders_alike(&loaded, &plan).expect("a picture");
+        assert!(alike, "{candidates} candidates");
     }
 }

@@ -6,13 +6,14 @@
 //!
 //! Lambert (1760), *Photometria*. Sampled with density cos θi / π.
 
+use crate::lane_bsdf_at_point::LaneBxdf;
 use crate::{Bxdf, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
-use etalon_math::Density;
+use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector};
 use etalon_params::Params;
-use etalon_sampling::warps::square_to_cosine_hemisphere;
+use etalon_sampling::warps::cosine_hemisphere;
 use etalon_transport::{
-    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
+    BsdfSample, Build, LaneBsdfSample, SpectrumKind, TextureId, Textures, TransportMode,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -41,44 +42,66 @@ impl Description {
     /// The model at a point.
     #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Diffuse {
+        Self::in_lanes(|_| (self, *site))
+    }
+
+    /// The models at several points.
+    #[inline]
+    pub(crate) fn in_lanes<'m, F: Lane, T: Textures + 'm>(
+        at: impl Fn(usize) -> (&'m Self, ShadingContext<'m, T>),
+    ) -> Diffuse<F> {
+        let reflectance = |i: usize| {
+            let (description, site) = at(i);
+            site.spectrum(description.reflectance)
+        };
         Diffuse {
-            reflectance: site.spectrum(self.reflectance),
+            reflectance: F::Spectrum::of_lanes(reflectance),
         }
     }
 }
 
 /// Lambertian reflection.
 #[derive(Clone, Copy, Debug)]
-pub struct Diffuse {
-    /// ρ, the fraction of light reflected, per lane.
-    pub reflectance: Vec4,
+pub struct Diffuse<F: Lane = f32> {
+    /// ρ, the fraction of light reflected, per wavelength.
+    pub reflectance: F::Spectrum,
+}
+
+impl<F: Lane> LaneBxdf<F> for Diffuse<F> {
+    const CONTINUOUS: bool = true;
+    const TRANSMITS: bool = false;
+
+    #[inline(always)]
+    fn eval_lanes(&self, wo: F::Vector, wi: F::Vector) -> (F::Spectrum, F::Spectrum) {
+        let in_front = wo.z().gt(F::ZERO) & wi.z().gt(F::ZERO);
+        let density = in_front.select(wi.z() * FRAC_1_PI, F::ZERO);
+        (self.reflectance * density, F::Spectrum::uniform(density))
+    }
+
+    #[inline(always)]
+    fn sample_lanes(&self, wo: F::Vector, _: F, u: [F; 2]) -> LaneBsdfSample<F> {
+        let wi = cosine_hemisphere::<F>(u);
+        let density = wi.z() * FRAC_1_PI;
+        LaneBsdfSample {
+            found: wo.z().gt(F::ZERO),
+            wi,
+            value: self.reflectance * density,
+            chance: F::Spectrum::uniform(density),
+            is_delta: F::Mask::splat(false),
+            eta: F::ONE,
+        }
+    }
 }
 
 impl Bxdf for Diffuse {
     #[inline]
     fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
-        let density = if wo.z > 0.0 && wi.z > 0.0 {
-            wi.z * FRAC_1_PI
-        } else {
-            0.0
-        };
-        (self.reflectance * density, Vec4::splat(density))
+        self.eval_lanes(wo, wi)
     }
 
     #[inline]
-    fn sample(&self, wo: Vec3, _: f32, u: Vec2, _: TransportMode) -> Option<BsdfSample> {
-        if !(wo.z > 0.0) {
-            return None;
-        }
-        let wi = square_to_cosine_hemisphere(u);
-        let density = wi.z * FRAC_1_PI;
-        Some(BsdfSample {
-            wi,
-            value: self.reflectance * density,
-            chance: SamplePdf::Continuous(Density::uniform(density)),
-            eta: 1.0,
-            is_null: false,
-        })
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, _: TransportMode) -> Option<BsdfSample> {
+        self.sample_lanes(wo, u_lobe, u.to_array()).only()
     }
 
     #[inline]

@@ -12,7 +12,7 @@
 use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Params};
-use etalon_transport::{Build, LegacyPhong, Textures};
+use etalon_transport::{Build, LaneKind, LegacyPhong, Textures};
 
 /// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
@@ -82,6 +82,26 @@ impl Description {
             Some((self.back.as_ref().unwrap_or(&self.front), frame.mirrored()))
         } else {
             None
+        }
+    }
+
+    /// The kind of both sides.
+    pub(crate) fn lane_kind(&self) -> Option<LaneKind> {
+        let plain = |side: &Material| match side {
+            Material::TwoSided(_) => None,
+            side => side.lane_kind(),
+        };
+        let kind = plain(&self.front)?;
+        let mut sides = self.nested();
+        sides.all(|side| plain(side) == Some(kind)).then_some(kind)
+    }
+
+    /// The material of the front or the back.
+    #[inline]
+    pub(crate) fn lane_side(&self, back: bool) -> &Material {
+        match &self.back {
+            Some(other) if back => other,
+            _ => &self.front,
         }
     }
 

@@ -12,6 +12,7 @@ mod discrete;
 mod ends;
 mod energy;
 mod flattening;
+mod lanes;
 mod mitsuba;
 mod mutants;
 mod notation;

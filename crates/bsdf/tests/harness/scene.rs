@@ -211,6 +211,11 @@ impl Sample {
             .resolve(&self.scene, &vertex(shading), wo, wavelengths)
     }
 
+    /// The textures of its scene.
+    pub(crate) fn textures(&self) -> &Scene {
+        &self.scene
+    }
+
     /// The material's flags.
     pub(crate) fn material(&self) -> &Material {
         &self.material
@@ -218,7 +223,7 @@ impl Sample {
 }
 
 /// A point with the geometric normal +z.
-fn vertex(shading: Frame) -> SurfaceInteraction {
+pub(crate) fn vertex(shading: Frame) -> SurfaceInteraction {
     SurfaceInteraction {
         position: Vec3::ZERO,
         error: Vec3::ZERO,

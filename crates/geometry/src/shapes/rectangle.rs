@@ -12,12 +12,14 @@
 use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::mesh::{Mesh, MeshOptions};
-use crate::shapes::shape_model::{ShapeModel, read_face_normals, read_flip};
+use crate::shapes::shape_model::{ShapeModel, area_density_toward, read_face_normals, read_flip};
+use etalon_math::lane::{Lane, Mask, Select, Vector, per_lane};
 use etalon_math::{DirectionCone, Frame, gamma};
 use etalon_params::Params;
 use etalon_sampling::warps::{RectangleSides, RectangleView, SphericalRectangle};
 use etalon_transport::{
-    LightSampleContext, MeshData, SampledPoint, ShapeId, SurfacePoint, TexturePoint,
+    LanePoint, LaneReceiver, LightSampleContext, MeshData, SampledPoint, ShapeId, SurfacePoint,
+    TexturePoint,
 };
 use glam::{BVec2, DVec3, Vec2, Vec3};
 
@@ -35,12 +37,6 @@ pub struct Rectangle {
     sides: RectangleSides,
     area: f64,
     right_angled: bool,
-}
-
-/// The receiver's view of the rectangle.
-enum View {
-    Far(RectangleView),
-    Near(SphericalRectangle),
 }
 
 impl Rectangle {
@@ -133,28 +129,59 @@ impl Rectangle {
         }
     }
 
+    /// How a receiver sees it that is so near that light varies over it in ways that no simple density follows; `None` for
+    /// others.
     #[inline]
-    fn seen_from(&self, from: &LightSampleContext) -> View {
-        let corner = self.corner - from.position;
-        if self.right_angled
-            && self.sides.is_near(corner)
-            && let Some(seen) = SphericalRectangle::seen(corner, &self.sides)
-        {
-            return View::Near(seen);
-        }
-        View::Far(RectangleView::new(corner, self.edges, from.normal))
+    fn seen_nearby(&self, from: Vec3) -> Option<SphericalRectangle> {
+        let corner = self.corner - from;
+        (self.right_angled && self.sides.is_near::<f32>(corner))
+            .then(|| SphericalRectangle::seen(corner, &self.sides))
+            .flatten()
     }
 
-    /// The density (sr⁻¹) of a point chosen with the density `density` on the unit square.
-    #[inline]
-    fn per_solid_angle(&self, density: f32, from: Vec3, position: Vec3) -> f32 {
-        density
-            * crate::shapes::shape_model::area_density_toward(
-                self.area,
-                from,
-                position,
-                self.normal,
-            )
+    /// How receivers see it from afar, each with a normal, or zero for none.
+    #[inline(always)]
+    fn seen_from_afar<F: Lane>(&self, from: F::Vector, normal: F::Vector) -> RectangleView<F> {
+        let corner = F::Vector::broadcast(self.corner) - from;
+        RectangleView::new(corner, self.edges.map(F::Vector::broadcast), normal)
+    }
+
+    /// The density (sr⁻¹) of points chosen with the density `density` on the unit square.
+    #[inline(always)]
+    fn per_solid_angle<F: Lane>(&self, density: F, from: F::Vector, position: F::Vector) -> F {
+        let normal = F::Vector::broadcast(self.normal);
+        density * area_density_toward::<F>(self.area, from, position, normal)
+    }
+
+    /// Points chosen for receivers, each with a normal, or zero for none.
+    #[inline(always)]
+    fn points_toward<F: Lane>(&self, from: &LaneReceiver<F>, u: [F; 2]) -> LanePoint<F> {
+        let view = self.seen_from_afar::<F>(from.position, from.normal);
+        let uv = view.sample(u);
+        let [corner, x, y] = [self.corner, self.edges[0], self.edges[1]].map(F::Vector::broadcast);
+        let mut position = corner + x * uv[0] + y * uv[1];
+        let mut density = self.per_solid_angle(view.density(uv), from.position, position);
+        let near = self.sides.is_near::<F>(corner - from.position);
+        if self.right_angled && near.any() {
+            // Few are near, and what they need takes double precision.
+            let nearby = per_lane::<F, _>(|i| {
+                let seen = near
+                    .lane(i)
+                    .then(|| self.seen_nearby(from.position.at_lane(i)))??;
+                let uv = seen.sample_position(Vec2::new(u[0].lane(i), u[1].lane(i)));
+                Some((self.at(uv).position, seen.density()))
+            });
+            let seen = F::Mask::from_fn(|i| nearby[i].is_some());
+            let of = |i: usize| nearby[i].unwrap_or_default();
+            position = F::Vector::choose(seen, F::Vector::of_lanes(|i| of(i).0), position);
+            density = seen.select(F::from_fn(|i| of(i).1), density);
+        }
+        LanePoint {
+            position,
+            error: F::Vector::broadcast(self.error),
+            normal: F::Vector::broadcast(self.normal),
+            density,
+        }
     }
 }
 
@@ -192,30 +219,32 @@ impl ShapeModel for Rectangle {
 
     #[inline]
     fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
-        Some(match self.seen_from(from) {
-            View::Near(seen) => SampledPoint {
+        if let Some(seen) = self.seen_nearby(from.position) {
+            return Some(SampledPoint {
                 point: self.at(seen.sample_position(u)),
                 density: seen.density(),
-            },
-            View::Far(view) => {
-                let uv = view.sample(u);
-                let point = self.at(uv);
-                let density = view.density(uv);
-                SampledPoint {
-                    point,
-                    density: self.per_solid_angle(density, from.position, point.position),
-                }
-            }
+            });
+        }
+        let view = self.seen_from_afar::<f32>(from.position, from.normal);
+        let uv = view.sample(u.to_array());
+        let point = self.at(uv.into());
+        Some(SampledPoint {
+            density: self.per_solid_angle(view.density(uv), from.position, point.position),
+            point,
         })
     }
 
+    #[inline]
+    fn lanes_toward<F: Lane>(&self, from: &LaneReceiver<F>, u: [F; 2]) -> Option<LanePoint<F>> {
+        Some(self.points_toward(from, u))
+    }
+
     fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
-        match self.seen_from(from) {
-            View::Near(seen) => seen.density(),
-            View::Far(view) => {
-                let density = view.density(at.texture.uv);
-                self.per_solid_angle(density, from.position, at.position)
-            }
+        if let Some(seen) = self.seen_nearby(from.position) {
+            return seen.density();
         }
+        let view = self.seen_from_afar::<f32>(from.position, from.normal);
+        let density = view.density(at.texture.uv.to_array());
+        self.per_solid_angle(density, from.position, at.position)
     }
 }

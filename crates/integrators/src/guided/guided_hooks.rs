@@ -34,6 +34,8 @@ pub(super) fn toward(vertex: &SurfaceInteraction, wo: Vec3) -> Vec3 {
 const LEAST_SURVIVAL: f32 = 0.05;
 
 impl<'f> PathHooks for GuidedHooks<'f> {
+    const PLAIN: bool = false;
+
     type GuidedBsdf<B: Bsdf + Copy> = GuidedBsdf<'f, B>;
 
     #[inline]

@@ -135,6 +135,8 @@ impl PathVertex {
 }
 
 impl<'f> PathHooks for TrainingPath<'f> {
+    const PLAIN: bool = false;
+
     type GuidedBsdf<B: Bsdf + Copy> = GuidedBsdf<'f, B>;
 
     fn wrap_bsdf<B: Bsdf + Copy>(

@@ -13,12 +13,12 @@ use etalon_transport::{
 };
 
 /// A path that has reached a surface.
-struct Arrived {
+pub(super) struct Arrived {
     /// Its index.
-    path: usize,
+    pub(super) path: usize,
     /// The ray that led there.
-    ray: Ray,
-    vertex: SurfaceInteraction,
+    pub(super) ray: Ray,
+    pub(super) vertex: SurfaceInteraction,
 }
 
 /// Up to `N` paths. Those not yet ended are listed densely, so that no stage visits the others.
@@ -31,13 +31,13 @@ pub(crate) struct PathBatch<'w, W: World + 'w, S, C, const N: usize> {
     /// The nearest surface along it.
     hits: [Option<Hit>; N],
     /// Those that have reached a surface.
-    arrived: ArrayVec<Arrived, N>,
+    pub(super) arrived: ArrayVec<Arrived, N>,
     /// Indices in `paths` of those that go on, and their next rays.
-    continued: ArrayVec<(usize, Ray), N>,
+    pub(super) continued: ArrayVec<(usize, Ray), N>,
     /// Indices in `paths` of those with a shadow ray, and their light samples.
-    waiting: ArrayVec<(usize, UnoccludedPath), N>,
+    pub(super) waiting: ArrayVec<(usize, UnoccludedPath), N>,
     /// The shadow rays.
-    shadow_rays: ArrayVec<ShadowQuery, N>,
+    pub(super) shadow_rays: ArrayVec<ShadowQuery, N>,
     /// Their transmittance.
     transmissions: [Option<Transmission>; N],
 }
@@ -115,14 +115,15 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
     #[inline]
     pub(crate) fn scatter(
         &mut self,
+        (world, config): (&'w W, &PathConfig),
         mut scatter: impl FnMut(&mut PathState<'w, W, S, C>, &Ray, &SurfaceInteraction) -> Step,
     ) {
-        for place in 0..self.arrived.len() {
-            let Arrived { path, ray, vertex } = &self.arrived[place];
+        self.scatter_by_kind((world, config), |batch, place| {
+            let Arrived { path, ray, vertex } = &batch.arrived[place];
             let path = *path;
-            let step = scatter(&mut self.paths[path], ray, vertex);
-            self.take(path, step);
-        }
+            let step = scatter(&mut batch.paths[path], ray, vertex);
+            batch.take(path, step);
+        });
         self.arrived.clear();
         self.active.clear();
         self.rays.clear();

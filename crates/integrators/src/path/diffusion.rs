@@ -156,7 +156,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
         let eta = profile.relative_index();
         self.throughput.beta *= eta * eta;
         self.eta /= eta;
-        if self.depth == config.limits.max_depth || self.throughput.beta == Vec4::ZERO {
+        if self.is_last(config) || self.throughput.beta == Vec4::ZERO {
             return Step::END;
         }
         let normal = vertex.normal;

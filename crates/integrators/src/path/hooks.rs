@@ -6,6 +6,9 @@ use glam::{Vec3, Vec4};
 
 /// What is called along a path. `()` is the plain path tracer.
 pub(crate) trait PathHooks {
+    /// Whether nothing is called, so that several paths may be scattered together.
+    const PLAIN: bool;
+
     /// A scattering model that samples other directions than `B`, but scatters the same light.
     type GuidedBsdf<B: Bsdf + Copy>: Bsdf;
 
@@ -58,6 +61,8 @@ pub(crate) trait PathHooks {
 }
 
 impl PathHooks for () {
+    const PLAIN: bool = true;
+
     type GuidedBsdf<B: Bsdf + Copy> = B;
 
     #[inline]

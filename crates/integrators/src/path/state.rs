@@ -165,6 +165,12 @@ impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
             .rgb(self.radiance * self.weight)
     }
 
+    /// Whether no segment may follow the next vertex.
+    #[inline]
+    pub(crate) fn is_last(&self, config: &PathConfig) -> bool {
+        self.depth == config.limits.max_depth
+    }
+
     /// The weights of emission where the path arrives.
     #[inline]
     pub(crate) fn arriving(&self) -> Arriving<'_> {
@@ -270,7 +276,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
             return None;
         };
         let counts = config.counts_null || !sample.is_null;
-        if counts && self.depth == config.limits.max_depth {
+        if counts && self.is_last(config) {
             self.alpha = 1.0;
             return None;
         }

@@ -6,8 +6,8 @@ use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     ApertureHit, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
-    LightSample, LightSampleContext, LightVariety, Lights, MediumId, Ray, Sensor, ShadowQuery,
-    SurfaceInteraction, Surfaces, Transmission, World,
+    LightSample, LightSampleContext, LightVariety, Lights, MediumId, NoLanes, Ray, Sensor,
+    ShadowQuery, SurfaceInteraction, Surfaces, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -220,6 +220,12 @@ impl<'a, W: World> World for Recorder<'a, W> {
     type Media = W::Media;
     type Camera = Recording<'a, W::Camera>;
     type Sensor = Recording<'a, W::Sensor>;
+
+    type Lanes = NoLanes;
+
+    fn lanes(&self) -> Option<&NoLanes> {
+        None
+    }
 
     fn surfaces(&self) -> &Self::Surfaces {
         &self.surfaces

@@ -18,12 +18,12 @@ use crate::steps::settings::LightCandidates;
 use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_sampling::Sampler;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{LightSample, LightSampleContext, LightVariety, Transmission, World};
+use etalon_transport::{LightSample, LightSampleContext, LightVariety, World};
 use glam::Vec2;
 
 /// Multiples of this spread evenly over a square, modulo one: powers of the inverse of the plastic
 /// number (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
-const TURN: Vec2 = Vec2::new(0.754_877_7, 0.569_840_3);
+pub(crate) const TURN: Vec2 = Vec2::new(0.754_877_7, 0.569_840_3);
 
 /// How many there are of several lights unless a scene says so.
 const AUTOMATIC: u32 = 2;
@@ -52,6 +52,12 @@ impl Candidates {
             },
         };
         Self(count)
+    }
+
+    /// How many.
+    #[inline]
+    pub(crate) fn count(self) -> u32 {
+        self.0
     }
 
     /// Draws them, and chooses one; `connect` says what a light sample brings. Draws one more number of `sampler`
@@ -83,7 +89,7 @@ impl Candidates {
             let Some(candidate) = light.as_ref().and_then(&connect) else {
                 continue;
             };
-            let expected = candidate.path.estimate(&Transmission::FREE).element_sum();
+            let expected = candidate.path.unoccluded().element_sum();
             if !expected.is_finite() {
                 // Not for the choice to hide.
                 return Some(candidate);

@@ -29,7 +29,7 @@ pub const PER_SCATTERING: u32 = 8;
 
 /// The random numbers of one scattering event, in the order of their dimensions. All of them
 /// are drawn, used or not: that is cheaper than skipping some.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct BounceSamples {
     /// Direction toward a light, or for a light path the aperture position to connect with.
     pub light: Vec2,

@@ -1,6 +1,7 @@
 //! Next-event estimation: a vertex of a path connected to a point of a light, weighted by multiple importance sampling.
 
 use crate::steps::path_throughput::PathThroughput;
+use etalon_math::lane::{Lane, Select, Spectral};
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
@@ -20,11 +21,49 @@ pub(crate) struct LightConnection {
 
 /// A path that ends at a light sample, before its shadow ray is traced.
 #[derive(Clone, Copy)]
-pub(crate) struct UnoccludedPath {
+pub(crate) struct UnoccludedPath<F: Lane = f32> {
     /// The throughput of the whole path, emission included; the transmittance of the shadow ray is not.
-    pub(crate) throughput: PathThroughput,
+    pub(crate) throughput: PathThroughput<F>,
     /// pₜ,ₖ / p₀ of finding the same path by scattering, without the probability of passing null surfaces on the way.
-    pdf_by_scattering: Vec4,
+    pub(crate) pdf_by_scattering: F::Spectrum,
+}
+
+impl<F: Lane> UnoccludedPath<F> {
+    /// The path `before` to a vertex, extended to a light sample with this probability, or density if it is not `is_delta`.
+    /// `contribution` is the BSDF's value times the light's radiance, `density` that of the BSDF, and `scattered` is pₖ / p₀ of a
+    /// path that is scattered here.
+    #[inline]
+    pub(crate) fn new(
+        before: &PathThroughput<F>,
+        scattered: F::Spectrum,
+        contribution: F::Spectrum,
+        density: F::Spectrum,
+        (chance, is_delta): (F, F::Mask),
+    ) -> Self {
+        let mut throughput = *before;
+        throughput.scatter(contribution, F::Spectrum::uniform(chance));
+        // Scattering never finds a discrete light.
+        let found = is_delta.select(F::ZERO, F::ONE / chance);
+        Self {
+            throughput,
+            pdf_by_scattering: scattered * density * found,
+        }
+    }
+
+    /// The contribution of the path if nothing is in the way.
+    #[inline]
+    pub(crate) fn unoccluded(&self) -> F::Spectrum {
+        (self.throughput).contribution(F::Spectrum::uniform(F::ONE), self.pdf_by_scattering)
+    }
+
+    /// The path in lane `index`.
+    #[inline]
+    pub(crate) fn at_lane(&self, index: usize) -> UnoccludedPath {
+        UnoccludedPath {
+            throughput: self.throughput.at_lane(index),
+            pdf_by_scattering: self.pdf_by_scattering.at_lane(index),
+        }
+    }
 }
 
 impl UnoccludedPath {

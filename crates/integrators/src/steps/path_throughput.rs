@@ -20,6 +20,7 @@
 //! The density p(λⱼ) with which wavelengths were drawn is divided out once, at the sensor
 //! ([`etalon_transport::Sensor::weights`]), and appears nowhere else.
 
+use etalon_math::lane::{Lane, Spectral};
 use glam::Vec4;
 
 /// No path survives roulette more surely: an endless one would not end.
@@ -28,13 +29,13 @@ pub const MOST: f32 = 0.95;
 /// The most that a path survives with at a point of a medium: it makes ten thousand steps, in the mean, if nothing is lost.
 const MOST_IN_MEDIUM: f32 = 0.9999;
 
-/// A path up to some vertex.
+/// A path up to some vertex, or several in lanes.
 #[derive(Clone, Copy, Debug)]
-pub struct PathThroughput {
+pub struct PathThroughput<F: Lane = f32> {
     /// fⱼ / p₀.
-    pub beta: Vec4,
+    pub beta: F::Spectrum,
     /// pₖ / p₀.
-    pub r_u: Vec4,
+    pub r_u: F::Spectrum,
 }
 
 impl PathThroughput {
@@ -43,15 +44,6 @@ impl PathThroughput {
         beta: Vec4::ONE,
         r_u: Vec4::ONE,
     };
-
-    /// Extends the path by an event with contribution `factor` and densities `chance` (lane 0
-    /// is the one that chose).
-    #[inline]
-    pub fn scatter(&mut self, factor: Vec4, chance: Vec4) {
-        let inverse = 1.0 / chance.x;
-        self.beta *= factor * inverse;
-        self.r_u *= chance * inverse;
-    }
 
     /// Whether the path survives Russian roulette with the probability `survival`, for the random number `u`; if so, it is
     /// scaled.
@@ -64,47 +56,67 @@ impl PathThroughput {
         true
     }
 
-    /// The probability with which a path from the camera survives roulette, which has passed indices of refraction
-    /// with the product `eta`.
-    #[inline]
-    pub fn survival(&self, eta: f32) -> f32 {
-        (self.magnitude() * eta * eta).min(MOST)
-    }
-
-    /// The same between two points of a medium. A walk of many steps below a surface must not be ended by their number
-    /// alone, as each makes the rest count more; but one without loss or end must end.
+    /// The probability of survival between two points of a medium. A walk of many steps below a surface must not be ended by
+    /// their number alone, as each makes the rest count more; but one without loss or end must end.
     #[inline]
     pub fn survival_in_medium(&self, eta: f32) -> f32 {
         (self.magnitude() * eta * eta).min(MOST_IN_MEDIUM)
     }
 
-    /// The probability with which a path from a light survives, whose throughput was `before` when it left where it was
+    /// The same with which a path from a light survives, whose throughput was `before` when it left where it was
     /// scattered before, at a point of a medium (`in_space`) or a surface: emitted flux has no natural scale.
     #[inline]
     pub fn survival_of_flux(&self, before: f32, in_space: bool) -> f32 {
         let most = if in_space { MOST_IN_MEDIUM } else { MOST };
         (self.magnitude() / before).min(most)
     }
+}
+
+impl<F: Lane> PathThroughput<F> {
+    /// The path in lane `index`.
+    #[inline]
+    pub fn at_lane(&self, index: usize) -> PathThroughput {
+        PathThroughput {
+            beta: self.beta.at_lane(index),
+            r_u: self.r_u.at_lane(index),
+        }
+    }
+
+    /// Extends the path by an event with contribution `factor` and densities `chance` (that of the first wavelength
+    /// is the one that chose).
+    #[inline]
+    pub fn scatter(&mut self, factor: F::Spectrum, chance: F::Spectrum) {
+        let inverse = F::ONE / chance.hero();
+        self.beta = self.beta * (factor * inverse);
+        self.r_u = self.r_u * (chance * inverse);
+    }
+
+    /// The probability with which a path from the camera survives Russian roulette, which has passed indices of refraction
+    /// with the product `eta`.
+    #[inline]
+    pub fn survival(&self, eta: F) -> F {
+        (self.magnitude() * eta * eta).min(F::splat(MOST))
+    }
 
     /// Survives Russian roulette of probability `q`, a rule symmetric in the lanes: it scales
     /// every lane's density alike.
     #[inline]
-    pub fn roulette(&mut self, q: f32) {
-        self.beta /= q;
+    pub fn roulette(&mut self, q: F) {
+        self.beta = self.beta / q;
     }
 
-    /// What decides Russian roulette: the largest fⱼ over the mean of pₖ, symmetric in the lanes
-    /// and equal to the throughput of an ordinary path tracer where lanes agree.
+    /// What decides Russian roulette: the largest fⱼ over the mean of pₖ, symmetric in the wavelengths
+    /// and equal to the throughput of an ordinary path tracer where they agree.
     #[inline]
-    pub fn magnitude(&self) -> f32 {
-        4.0 * self.beta.max_element() / self.r_u.element_sum()
+    pub fn magnitude(&self) -> F {
+        self.beta.greatest() * 4.0 / self.r_u.sum()
     }
 
     /// The estimate of a complete path that adds `radiance` at its end, when another technique
     /// could have found the same path with density ratio `other` (pₜ,ₖ / p₀; zero if none).
     #[inline]
-    pub fn contribution(&self, radiance: Vec4, other: Vec4) -> Vec4 {
-        self.beta * radiance / (self.r_u + other).element_sum()
+    pub fn contribution(&self, radiance: F::Spectrum, other: F::Spectrum) -> F::Spectrum {
+        self.beta * radiance / (self.r_u + other).sum()
     }
 }
 

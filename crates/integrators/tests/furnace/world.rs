@@ -297,6 +297,12 @@ impl World for Sphere {
     type Camera = Pinhole;
     type Sensor = Self;
 
+    type Lanes = NoLanes;
+
+    fn lanes(&self) -> Option<&NoLanes> {
+        None
+    }
+
     fn surfaces(&self) -> &Self {
         self
     }

@@ -290,6 +290,12 @@ impl World for Stack {
     type Camera = Camera1D;
     type Sensor = Self;
 
+    type Lanes = NoLanes;
+
+    fn lanes(&self) -> Option<&NoLanes> {
+        None
+    }
+
     fn surfaces(&self) -> &Self {
         self
     }

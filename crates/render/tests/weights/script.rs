@@ -11,7 +11,7 @@ use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
     ApertureHit, BsdfOf, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, InstanceId,
     LegacyPhong, LightId, LightKind, LightSample, LightSampleContext, LightVariety, Lights,
-    MediumId, Ray, SamplePdf, Sensor, ShadowQuery, ShapeId, SurfaceInteraction, Surfaces,
+    MediumId, NoLanes, Ray, SamplePdf, Sensor, ShadowQuery, ShapeId, SurfaceInteraction, Surfaces,
     Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
@@ -241,6 +241,12 @@ impl<'s, W: World> World for Script<'s, W> {
     type Media = W::Media;
     type Camera = Aperture<'s, W>;
     type Sensor = Self;
+
+    type Lanes = NoLanes;
+
+    fn lanes(&self) -> Option<&NoLanes> {
+        None
+    }
 
     fn surfaces(&self) -> &Self {
         self

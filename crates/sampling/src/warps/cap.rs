@@ -25,7 +25,8 @@ pub const UNIFORM_SPHERE_DENSITY: f32 = 0.25 * FRAC_1_PI;
 /// 1 − cos θ ≤ `one_minus_cos_max` ∈ (0, 2].
 #[inline]
 pub fn square_to_uniform_cone(u: Vec2, one_minus_cos_max: f32) -> Vec3 {
-    let (radius, point) = square_to_polar(u);
+    let (radius, point) = square_to_polar(u.to_array());
+    let point = Vec2::from(point);
     let one_minus_cos = radius * radius * one_minus_cos_max;
     // sin θ / r, since sin² θ = (1 − cos θ)(1 + cos θ).
     let scale = (one_minus_cos_max * (2.0 - one_minus_cos)).sqrt();

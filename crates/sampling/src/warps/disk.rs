@@ -4,7 +4,8 @@
 //! is pₓ and the angle (π/4)·p_y/pₓ; otherwise the roles of the axes are exchanged.
 
 use core::f32::consts::FRAC_1_PI;
-use etalon_math::float::{atan, sin_cos_turns};
+use etalon_math::float::atan;
+use etalon_math::lane::{Int, Lane, Select, sin_cos_turns};
 use glam::Vec2;
 
 /// The density of [`square_to_concentric_disk`] per unit of area, anywhere on the disk: 1/π.
@@ -13,30 +14,30 @@ pub const CONCENTRIC_DISK_DENSITY: f32 = FRAC_1_PI;
 /// A point of the unit disk, uniform by area.
 #[inline]
 pub fn square_to_concentric_disk(u: Vec2) -> Vec2 {
-    square_to_polar(u).1
+    square_to_polar(u.to_array()).1.into()
 }
 
 /// The signed radius of the point, in [−1, 1], and the point: the radius is exact, the point's
 /// own length only up to rounding.
 #[inline]
-pub(super) fn square_to_polar(u: Vec2) -> (f32, Vec2) {
-    let p = 2.0 * u - Vec2::ONE;
+pub(super) fn square_to_polar<F: Lane>(u: [F; 2]) -> (F, [F; 2]) {
+    let p = u.map(|u| u * 2.0 - 1.0);
     // Exchanged by bits: a branch would be guessed wrong half the time.
-    let tall = u32::from(p.x.abs() <= p.y.abs()).wrapping_neg();
-    let [radius, lesser] = exchanged(p.to_array(), tall);
+    let zeros = F::Int::splat(0);
+    let tall = p[0].abs().le(p[1].abs()).select(!zeros, zeros);
+    let [radius, lesser] = exchanged(p, tall);
     // The angle from the nearest axis, at most an eighth of a turn; at the centre, any.
-    let ratio = if radius == 0.0 { 0.0 } else { lesser / radius };
-    let (sin, cos) = sin_cos_turns(0.125 * ratio);
-    let point = exchanged([radius * cos, radius * sin], tall).into();
-    (radius, point)
+    let ratio = Lane::eq(radius, F::ZERO).select(F::ZERO, lesser / radius);
+    let (sin, cos) = sin_cos_turns(ratio * 0.125);
+    (radius, exchanged([radius * cos, radius * sin], tall))
 }
 
 /// The two numbers, exchanged where `mask` is all ones rather than zero.
 #[inline]
-fn exchanged([a, b]: [f32; 2], mask: u32) -> [f32; 2] {
-    let (a, b) = (a.to_bits(), b.to_bits());
+fn exchanged<F: Lane>(numbers: [F; 2], mask: F::Int) -> [F; 2] {
+    let [a, b] = numbers.map(F::to_bits);
     let change = (a ^ b) & mask;
-    [f32::from_bits(a ^ change), f32::from_bits(b ^ change)]
+    [F::from_bits(a ^ change), F::from_bits(b ^ change)]
 }
 
 /// The point of the square that becomes `point`; the inverse of [`square_to_concentric_disk`].

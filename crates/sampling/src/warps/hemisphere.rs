@@ -3,6 +3,7 @@
 
 use super::disk::{polar_to_square, square_to_polar};
 use core::f32::consts::FRAC_1_PI;
+use etalon_math::lane::{Lane, Vector};
 use glam::{Vec2, Vec3};
 
 /// The least cosine that [`square_to_cosine_hemisphere`] returns, 2⁻¹². The rim of the disk, at
@@ -14,9 +15,15 @@ const LEAST_COSINE: f32 = 1.0 / 4096.0;
 /// A unit direction with density cos θ / π; its z is always positive.
 #[inline]
 pub fn square_to_cosine_hemisphere(u: Vec2) -> Vec3 {
-    let (radius, point) = square_to_polar(u);
-    let z = ((1.0 - radius) * (1.0 + radius)).sqrt();
-    point.extend(z.max(LEAST_COSINE))
+    cosine_hemisphere(u.to_array())
+}
+
+/// The same in lanes.
+#[inline(always)]
+pub fn cosine_hemisphere<F: Lane>(u: [F; 2]) -> F::Vector {
+    let (radius, [x, y]) = square_to_polar(u);
+    let z = ((F::ONE - radius) * (F::ONE + radius)).sqrt();
+    F::Vector::from_xyz(x, y, z.max(F::splat(LEAST_COSINE)))
 }
 
 /// The inverse of [`square_to_cosine_hemisphere`], for a unit direction.

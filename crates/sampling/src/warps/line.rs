@@ -1,5 +1,7 @@
 //! The tent and the linear density on a line.
 
+use etalon_math::lane::Lane;
+
 /// A number in [−1, 1] with density 1 − |x|.
 #[inline]
 pub fn interval_to_tent(u: f32) -> f32 {
@@ -30,10 +32,10 @@ pub fn tent_density(x: f32) -> f32 {
 /// The root of (b − a)x²/2 + ax = u(a + b)/2, in a form without cancellation that includes
 /// a = b.
 #[inline]
-pub fn interval_to_linear(u: f32, a: f32, b: f32) -> f32 {
-    let root = (a * a + u * (b - a) * (b + a)).max(0.0).sqrt();
+pub fn interval_to_linear<F: Lane>(u: F, a: F, b: F) -> F {
+    let root = (a * a + u * (b - a) * (b + a)).safe_sqrt();
     // a = 0 and u = 0 would be 0/0.
-    (u * (a + b) / (a + root).max(f32::MIN_POSITIVE)).min(1.0)
+    (u * (a + b) / (a + root).max(F::splat(f32::MIN_POSITIVE))).min(F::ONE)
 }
 
 /// The inverse of [`interval_to_linear`].

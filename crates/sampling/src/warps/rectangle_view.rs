@@ -14,64 +14,66 @@
 //! below [`GRAZING`], so that no part of the rectangle is left out.
 
 use super::line::{interval_to_linear, linear_to_interval};
-use glam::{Vec2, Vec3, Vec4, vec4};
+use etalon_math::lane::{Lane, Select, Spectral, Vector};
+use glam::Vec2;
 
 /// The least cosine at the receiver that is believed.
 const GRAZING: f32 = 0.05;
 
 /// A rectangle, or any parallelogram, as a receiver sees it.
 #[derive(Clone, Copy, Debug)]
-pub struct RectangleView {
+pub struct RectangleView<F: Lane = f32> {
     /// The density at the corners (0, 0), (1, 0), (0, 1), (1, 1), up to a factor.
-    corners: Vec4,
-    total: f32,
+    corners: F::Spectrum,
+    total: F,
 }
 
-impl RectangleView {
+impl<F: Lane> RectangleView<F> {
     /// The parallelogram with a corner at `corner` from the receiver and two edges, for a
     /// receiver with unit normal `normal`, or zero for none.
     #[inline]
-    pub fn new(corner: Vec3, edges: [Vec3; 2], normal: Vec3) -> Self {
-        let spread = |c: f32, a: f32, b: f32| vec4(c, c + a, c + b, c + a + b);
-        let x = spread(corner.x, edges[0].x, edges[1].x);
-        let y = spread(corner.y, edges[0].y, edges[1].y);
-        let z = spread(corner.z, edges[0].z, edges[1].z);
+    pub fn new(corner: F::Vector, edges: [F::Vector; 2], normal: F::Vector) -> Self {
+        let spread = |c: F, a: F, b: F| F::Spectrum::from_waves([c, c + a, c + b, c + a + b]);
+        let ([cx, cy, cz], [a, b]) = (corner.xyz(), edges.map(F::Vector::xyz));
+        let x = spread(cx, a[0], b[0]);
+        let y = spread(cy, a[1], b[1]);
+        let z = spread(cz, a[2], b[2]);
         let r2 = x * x + y * y + z * z;
-        let least = if normal == Vec3::ZERO { 1.0 } else { GRAZING };
+        let least = normal.is_zero().select(F::ONE, F::splat(GRAZING));
         // One distance serves for the limit at all corners.
-        let limit = Vec4::splat(least * r2.x.sqrt());
-        let across = (x * normal.x + y * normal.y + z * normal.z).abs();
-        let corners = across.max(limit) / (r2 * r2);
-        let total = corners.element_sum();
+        let limit = least * r2.hero().sqrt();
+        let [nx, ny, nz] = normal.xyz();
+        let across = (x * nx + y * ny + z * nz).magnitudes();
+        let corners = across.at_least(limit) / (r2 * r2);
+        let total = corners.sum();
         // Beyond the range of numbers, by area.
-        if total > 0.0 && total < f32::INFINITY {
-            Self { corners, total }
-        } else {
-            Self {
-                corners: Vec4::ONE,
-                total: 4.0,
-            }
+        let finite = total.gt(F::ZERO) & total.lt(F::splat(f32::INFINITY));
+        Self {
+            corners: F::Spectrum::choose(finite, corners, F::Spectrum::uniform(F::ONE)),
+            total: finite.select(total, F::splat(4.0)),
         }
     }
 
     /// A point of the unit square.
     #[inline]
-    pub fn sample(&self, u: Vec2) -> Vec2 {
-        let [a, b, c, d] = self.corners.to_array();
-        let y = interval_to_linear(u.y, a + b, c + d);
-        let x = interval_to_linear(u.x, a + (c - a) * y, b + (d - b) * y);
-        Vec2::new(x, y)
+    pub fn sample(&self, u: [F; 2]) -> [F; 2] {
+        let [a, b, c, d] = self.corners.waves();
+        let y = interval_to_linear(u[1], a + b, c + d);
+        let x = interval_to_linear(u[0], a + (c - a) * y, b + (d - b) * y);
+        [x, y]
     }
 
     /// The density of [`RectangleView::sample`] at a point of the unit square.
     #[inline]
-    pub fn density(&self, point: Vec2) -> f32 {
-        let [a, b, c, d] = self.corners.to_array();
-        let low = a + (b - a) * point.x;
-        let high = c + (d - c) * point.x;
-        4.0 * (low + (high - low) * point.y) / self.total
+    pub fn density(&self, [x, y]: [F; 2]) -> F {
+        let [a, b, c, d] = self.corners.waves();
+        let low = a + (b - a) * x;
+        let high = c + (d - c) * x;
+        (low + (high - low) * y) * 4.0 / self.total
     }
+}
 
+impl RectangleView {
     /// The inverse of [`RectangleView::sample`].
     #[inline]
     pub fn invert(&self, point: Vec2) -> Vec2 {

@@ -59,7 +59,8 @@ impl SphereCone {
     /// its place in the disk.
     #[inline]
     fn choose(&self, u: Vec2) -> (f64, f64, DVec3, f64) {
-        let (radius, point) = square_to_polar(u);
+        let (radius, point) = square_to_polar(u.to_array());
+        let point = Vec2::from(point);
         let squared = f64::from(radius) * f64::from(radius);
         let one_minus_cos = squared * self.one_minus_cos_max;
         let sin = (one_minus_cos * (2.0 - one_minus_cos)).sqrt();

@@ -16,6 +16,7 @@
 
 use etalon_math::float::sin_cos_turns;
 use etalon_math::float64;
+use etalon_math::lane::{Lane, Vector};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// The sides of a rectangle: what does not depend on where it is seen from.
@@ -51,8 +52,11 @@ impl RectangleSides {
     /// diagonal, for the corner at `corner`: irradiance then varies over the rectangle in
     /// ways that no simple density follows.
     #[inline]
-    pub fn is_near(&self, corner: Vec3) -> bool {
-        (corner + self.half_diagonal).length_squared() < self.diagonal_squared
+    pub fn is_near<F: Lane>(&self, corner: F::Vector) -> F::Mask {
+        let middle = corner + F::Vector::broadcast(self.half_diagonal);
+        middle
+            .dot_product(middle)
+            .lt(F::splat(self.diagonal_squared))
     }
 }
 

@@ -4,6 +4,7 @@
 mod attributes;
 mod compiled;
 mod darkness;
+mod lanes;
 mod media;
 mod mistakes;
 mod passing;

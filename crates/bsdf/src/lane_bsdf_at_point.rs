@@ -1,0 +1,80 @@
+//! Materials of one kind at several points, in vector lanes.
+
+use crate::{LaneModel, Material, ShadingContext};
+use etalon_math::lane::{Lane, LaneFrame, Mask, Vector};
+use etalon_transport::{LaneBsdf, LaneBsdfSample, LaneKind, LaneVertices, Textures};
+
+/// A model of scattering in lanes, in its own frame: z is the normal. Light is followed from the camera.
+pub(crate) trait LaneBxdf<F: Lane> {
+    /// Whether it scatters into a continuum of directions.
+    const CONTINUOUS: bool;
+    /// Whether light may pass to the other side.
+    const TRANSMITS: bool;
+
+    /// f·|cos θi| and the density (sr⁻¹) of `wi`, per wavelength.
+    fn eval_lanes(&self, wo: F::Vector, wi: F::Vector) -> (F::Spectrum, F::Spectrum);
+
+    /// Samples a direction.
+    fn sample_lanes(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F>;
+}
+
+/// Materials of one kind, each at its point.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneBsdfAtPoint<F: Lane> {
+    frame: LaneFrame<F>,
+    model: LaneModel<F>,
+}
+
+impl<F: Lane> LaneBsdfAtPoint<F> {
+    /// The material `material(i)`, of this kind, at vertex i.
+    #[inline]
+    pub fn new<'m, T: Textures>(
+        kind: LaneKind,
+        material: impl Fn(usize) -> &'m Material,
+        textures: &T,
+        LaneVertices {
+            vertices,
+            wavelengths,
+        }: LaneVertices<'_>,
+        wo: F::Vector,
+    ) -> Self {
+        let mut frame = LaneFrame::<F>::of_lanes(|i| &vertices[i].shading);
+        // The back of a surface with two sides has the mirror image of its frame. A direction in the surface itself is on either
+        // side, where nothing is scattered.
+        let back = F::Mask::from_fn(|i| material(i).has_two_sides())
+            & !frame.n.dot_product(wo).gt(F::ZERO);
+        frame.n = F::Vector::choose(back, -frame.n, frame.n);
+        let model = LaneModel::new(kind, |i| {
+            let site = ShadingContext::new(textures, vertices[i], wo.at_lane(i), &wavelengths[i]);
+            (material(i).lane_side(back.lane(i)), site)
+        });
+        Self { frame, model }
+    }
+}
+
+impl<F: Lane> LaneBsdf<F> for LaneBsdfAtPoint<F> {
+    #[inline]
+    fn hemisphere(&self, wo: F::Vector) -> Option<F::Vector> {
+        let n = self.frame.n;
+        let below = n.dot_product(wo).lt(F::ZERO);
+        (!self.model.transmits()).then(|| F::Vector::choose(below, -n, n))
+    }
+
+    #[inline]
+    fn has_continuous(&self) -> bool {
+        self.model.has_continuous()
+    }
+
+    #[inline]
+    fn eval_and_density(&self, wo: F::Vector, wi: F::Vector) -> (F::Spectrum, F::Spectrum) {
+        let [wo, wi] = [wo, wi].map(|w| self.frame.to_local(w));
+        self.model.eval_and_density(wo, wi)
+    }
+
+    #[inline]
+    fn sample(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F> {
+        let mut sample = self.model.sample(self.frame.to_local(wo), u_lobe, u);
+        sample.wi = self.frame.to_world(sample.wi);
+        sample
+    }
+}

@@ -1,0 +1,103 @@
+//! The list of models that are written for vector lanes, and their dispatch.
+//!
+//! To write one of [`crate::models`] for lanes, make its type generic, implement [`LaneBxdf`], let its `impl Bxdf` follow from
+//! one lane, and add one line to the list at the end of this file. The test harness follows from it.
+
+use crate::lane_bsdf_at_point::LaneBxdf;
+use crate::models::diffuse;
+use crate::{Material, ShadingContext};
+use etalon_math::lane::Lane;
+use etalon_transport::{LaneBsdfSample, LaneKind, Textures};
+
+macro_rules! lane_models {
+    ($($model:ident $module:ident,)*) => {
+        /// A model at several points, in lanes.
+        #[derive(Clone, Copy, Debug)]
+        pub enum LaneModel<F: Lane> {
+            $(#[doc = concat!("See [`", stringify!($module), "`].")]
+            $model($module::$model<F>),)*
+        }
+
+        /// The kinds of vertices that can be shaded in lanes.
+        #[derive(Clone, Copy)]
+        enum LaneIndex {
+            $($model,)*
+        }
+
+        impl<F: Lane> LaneModel<F> {
+            /// The plain material of `at(i)`, of this kind, at its point, in lane i.
+            #[inline]
+            pub(crate) fn new<'m, T: Textures + 'm>(
+                kind: LaneKind,
+                at: impl Fn(usize) -> (&'m Material, ShadingContext<'m, T>),
+            ) -> Self {
+                $(if kind.0 == LaneIndex::$model as u8 {
+                    return Self::$model($module::Description::in_lanes(|i| match at(i) {
+                        (Material::$model(description), site) => (description, site),
+                        _ => unreachable!("all lanes are of one kind"),
+                    }));
+                })*
+                unreachable!("a kind that no material has")
+            }
+
+            /// Whether it scatters into a continuum of directions.
+            #[inline]
+            pub(crate) fn has_continuous(&self) -> bool {
+                match self { $(Self::$model(_) => <$module::$model<F> as LaneBxdf<F>>::CONTINUOUS,)* }
+            }
+
+            /// Whether light may pass to the other side.
+            #[inline]
+            pub(crate) fn transmits(&self) -> bool {
+                match self { $(Self::$model(_) => <$module::$model<F> as LaneBxdf<F>>::TRANSMITS,)* }
+            }
+
+            #[inline]
+            pub(crate) fn eval_and_density(
+                &self,
+                wo: F::Vector,
+                wi: F::Vector,
+            ) -> (F::Spectrum, F::Spectrum) {
+                match self { $(Self::$model(model) => model.eval_lanes(wo, wi),)* }
+            }
+
+            #[inline]
+            pub(crate) fn sample(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F> {
+                match self { $(Self::$model(model) => model.sample_lanes(wo, u_lobe, u),)* }
+            }
+        }
+
+        impl Material {
+            /// The kind of its points; `None` if they must be shaded one by one.
+            pub fn lane_kind(&self) -> Option<LaneKind> {
+                match self {
+                    $(Self::$model(_) => Some(LaneKind(LaneIndex::$model as u8)),)*
+                    Self::TwoSided(sides) => sides.lane_kind(),
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+impl Material {
+    /// Whether the back is not that of the surface itself.
+    #[inline]
+    pub(crate) fn has_two_sides(&self) -> bool {
+        matches!(self, Self::TwoSided(_))
+    }
+
+    /// The plain material of the front or the back, of one that has a kind.
+    #[inline]
+    pub(crate) fn lane_side(&self, back: bool) -> &Self {
+        match self {
+            Self::TwoSided(sides) => sides.lane_side(back),
+            _ => self,
+        }
+    }
+}
+
+// The list: a line for each model.
+lane_models! {
+    Diffuse diffuse,
+}

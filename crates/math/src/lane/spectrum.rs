@@ -1,0 +1,170 @@
+//! Four numbers per lane: what a quantity is at a path's four wavelengths.
+//!
+//! Operations are written out: arrays of vectors that are mapped stay loops through memory.
+
+use super::{Lane, Select, per_lane};
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Sub};
+
+/// A quantity at four wavelengths, each in lanes: [`glam::Vec4`] for one number, [`Spectrum`] for a vector of them, with the same
+/// bits.
+pub trait Spectral<F: Lane>:
+    Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Mul<F, Output = Self>
+    + Div<F, Output = Self>
+{
+    /// The quantity at each wavelength.
+    fn from_waves(waves: [F; 4]) -> Self;
+    /// The same.
+    fn waves(self) -> [F; 4];
+    /// (first + second) + (third + fourth).
+    fn sum(self) -> F;
+    /// The greatest of the four.
+    fn greatest(self) -> F;
+
+    /// The same at every wavelength.
+    #[inline(always)]
+    fn uniform(value: F) -> Self {
+        Self::from_waves([value; 4])
+    }
+
+    /// The same spectrum in every lane.
+    #[inline(always)]
+    fn broadcast(spectrum: glam::Vec4) -> Self {
+        let [a, b, c, d] = spectrum.to_array();
+        Self::from_waves([F::splat(a), F::splat(b), F::splat(c), F::splat(d)])
+    }
+
+    /// `spectrum(i)` in lane i.
+    #[inline(always)]
+    fn of_lanes(spectrum: impl Fn(usize) -> glam::Vec4) -> Self {
+        let spectra = per_lane::<F, _>(spectrum);
+        let wave = |wave: usize| F::from_fn(|i| spectra[i][wave]);
+        Self::from_waves([wave(0), wave(1), wave(2), wave(3)])
+    }
+
+    /// The spectrum in lane `index`.
+    #[inline(always)]
+    fn at_lane(self, index: usize) -> glam::Vec4 {
+        let [a, b, c, d] = self.waves();
+        glam::Vec4::new(a.lane(index), b.lane(index), c.lane(index), d.lane(index))
+    }
+
+    /// The number at the wavelength that chooses where only one can.
+    #[inline(always)]
+    fn hero(self) -> F {
+        let [hero, ..] = self.waves();
+        hero
+    }
+
+    /// `yes` in the lanes where `mask` says yes, `no` in the others.
+    #[inline(always)]
+    fn choose(mask: F::Mask, yes: Self, no: Self) -> Self {
+        let ([a, b, c, d], [e, f, g, h]) = (yes.waves(), no.waves());
+        let choose = |yes, no| mask.select(yes, no);
+        Self::from_waves([choose(a, e), choose(b, f), choose(c, g), choose(d, h)])
+    }
+
+    /// Each without its sign.
+    #[inline(always)]
+    fn magnitudes(self) -> Self {
+        let [a, b, c, d] = self.waves();
+        Self::from_waves([a.abs(), b.abs(), c.abs(), d.abs()])
+    }
+
+    /// Each, or `least` if that is greater.
+    #[inline(always)]
+    fn at_least(self, least: F) -> Self {
+        let [a, b, c, d] = self.waves();
+        Self::from_waves([a.max(least), b.max(least), c.max(least), d.max(least)])
+    }
+
+    /// Whether it is 0 at every wavelength.
+    #[inline(always)]
+    fn is_zero(self) -> F::Mask {
+        let [a, b, c, d] = self.waves();
+        let zero = |value| Lane::eq(value, F::ZERO);
+        (zero(a) & zero(b)) & (zero(c) & zero(d))
+    }
+}
+
+impl Spectral<f32> for glam::Vec4 {
+    #[inline(always)]
+    fn from_waves(waves: [f32; 4]) -> Self {
+        waves.into()
+    }
+    #[inline(always)]
+    fn waves(self) -> [f32; 4] {
+        self.to_array()
+    }
+    #[inline(always)]
+    fn sum(self) -> f32 {
+        self.element_sum()
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        self.max_element()
+    }
+}
+
+/// A quantity at four wavelengths, in vectors of numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spectrum<F>(pub [F; 4]);
+
+impl<F: Lane> Spectral<F> for Spectrum<F> {
+    #[inline(always)]
+    fn from_waves(waves: [F; 4]) -> Self {
+        Self(waves)
+    }
+    #[inline(always)]
+    fn waves(self) -> [F; 4] {
+        self.0
+    }
+    #[inline(always)]
+    fn sum(self) -> F {
+        let [a, b, c, d] = self.0;
+        (a + b) + (c + d)
+    }
+    #[inline(always)]
+    fn greatest(self) -> F {
+        let [a, b, c, d] = self.0;
+        a.max(b).max(c.max(d))
+    }
+}
+
+macro_rules! operator {
+    ($operator:ident, $method:ident) => {
+        impl<F: Lane> $operator for Spectrum<F> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                let ([a, b, c, d], [e, f, g, h]) = (self.0, other.0);
+                Self([a.$method(e), b.$method(f), c.$method(g), d.$method(h)])
+            }
+        }
+
+        impl<F: Lane> $operator<F> for Spectrum<F> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: F) -> Self {
+                let [a, b, c, d] = self.0;
+                Self([
+                    a.$method(other),
+                    b.$method(other),
+                    c.$method(other),
+                    d.$method(other),
+                ])
+            }
+        }
+    };
+}
+
+operator!(Add, add);
+operator!(Sub, sub);
+operator!(Mul, mul);
+operator!(Div, div);

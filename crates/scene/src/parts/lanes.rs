@@ -1,0 +1,41 @@
+//! Vertices of a scene that are shaded in vector lanes.
+
+use super::Parts;
+use etalon_bsdf::LaneBsdfAtPoint;
+use etalon_math::lane::Lane;
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{
+    LaneKind, LaneLightSample, LaneReceiver, LaneShading, LaneVertices, SurfaceInteraction,
+};
+
+impl LaneShading for Parts {
+    type Bsdf<F: Lane> = LaneBsdfAtPoint<F>;
+
+    #[inline]
+    fn kind(&self, vertex: &SurfaceInteraction) -> Option<LaneKind> {
+        self.lane_kinds[vertex.material.0 as usize]
+    }
+
+    #[inline]
+    fn bsdf<F: Lane>(
+        &self,
+        kind: LaneKind,
+        vertices: LaneVertices<'_>,
+        wo: F::Vector,
+    ) -> LaneBsdfAtPoint<F> {
+        let material = |i: usize| &self.materials[vertices.vertices[i].material.0 as usize];
+        LaneBsdfAtPoint::new(kind, material, &self.space.lookup, vertices, wo)
+    }
+
+    #[inline]
+    fn sample_light<F: Lane>(
+        &self,
+        from: &LaneReceiver<F>,
+        wavelengths: &[Wavelengths],
+        _: F,
+        u: [F; 2],
+    ) -> LaneLightSample<F> {
+        let sample = (self.lights).sample_lanes(&self.space.lookup, from, wavelengths, u);
+        sample.expect("lights that have lanes")
+    }
+}

@@ -1,0 +1,77 @@
+//! Light sampling in vector lanes: lane i has the bits of a light sample alone.
+
+use crate::reading::{LANES, scene};
+use etalon_math::lane::{F32x8, F32x16, Lane, Mask, Spectral, Vector};
+use etalon_sampling::{Independent, Sampler};
+use etalon_scene::Scene;
+use etalon_transport::{LaneReceiver, LaneShading, World};
+use glam::{Vec2, Vec3};
+
+const LAMP: &str = "<shape type=\"rectangle\"><transform name=\"to_world\"><scale x=\"0.7\" y=\"0.4\"/><rotate x=\"1\" y=\"2\" \
+                    z=\"0\" angle=\"40\"/></transform><emitter type=\"area\"/></shape>";
+const MOVED: &str = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"rectangle\"><emitter type=\"area\"/></shape></shape>\
+                     <shape type=\"instance\"><ref id=\"g\"/><transform name=\"to_world\"><translate x=\"1\"/></transform></shape>";
+
+/// Compares as many light samples as there are lanes with the same ones alone.
+fn compare<F: Lane>(world: &Scene, reach: f32, random: &mut impl Sampler) {
+    let lanes = world.lanes().expect("a scene without media");
+    let mut number = || [(); 16].map(|()| random.next_1d());
+    let [x, y, z, nx, ny, nz] = [(); 6].map(|()| number().map(|u| 2.0 * u - 1.0));
+    let [choice, u, v, coin] = [(); 4].map(|()| number());
+    let normal = |i: usize| match coin[i] < 0.2 {
+        true => Vec3::ZERO,
+        false => Vec3::new(nx[i], ny[i], nz[i]).normalize_or(Vec3::Z),
+    };
+    let from = LaneReceiver {
+        position: F::Vector::of_lanes(|i| reach * Vec3::new(x[i], y[i], z[i])),
+        normal: F::Vector::of_lanes(normal),
+        one_sided: F::Mask::from_fn(|i| coin[i] > 0.5),
+        time: F::ZERO,
+    };
+    let waves = [LANES; 16];
+    let [u_light, u, v] = [choice, u, v].map(|numbers| F::load(&numbers));
+    let together = lanes.sample_light(&from, &waves[..F::WIDTH], u_light, [u, v]);
+    for i in 0..F::WIDTH {
+        let u = Vec2::new(u.lane(i), v.lane(i));
+        let alone = world.sample_light(&from.at_lane(i), &LANES, u_light.lane(i), u);
+        assert_eq!(together.found.lane(i), alone.is_some());
+        let Some(alone) = alone else { continue };
+        let target = together
+            .has_target
+            .lane(i)
+            .then(|| together.target.at_lane(i));
+        assert_eq!(target, alone.target);
+        assert_eq!(together.direction.at_lane(i), alone.direction);
+        assert_eq!(together.radiance.at_lane(i), alone.radiance);
+        assert_eq!(together.chance.lane(i), alone.chance.lanes().x);
+        assert_eq!(together.is_delta.lane(i), alone.chance.is_delta());
+    }
+}
+
+/// Mutants rejected: a near receiver that samples by area, radiance on the back of a lamp, a placed lamp where
+/// its shape was.
+#[test]
+fn lanes_sample_a_lamp_as_one_by_one() {
+    let mut random = Independent::from_key(1);
+    for lamp in [LAMP, MOVED] {
+        let world = scene(lamp);
+        for reach in [0.5, 4.0, 1e3] {
+            for _ in 0..64 {
+                compare::<f32>(&world, reach, &mut random);
+                compare::<F32x8>(&world, reach, &mut random);
+                compare::<F32x16>(&world, reach, &mut random);
+            }
+        }
+    }
+}
+
+/// Lights that are sampled one by one, and rays that must track media.
+#[test]
+fn other_scenes_have_no_lanes() {
+    let medium = "<medium type=\"homogeneous\" name=\"interior\"/>";
+    let fog = format!("<shape type=\"sphere\">{medium}</shape>{LAMP}");
+    let two = format!("{LAMP}{LAMP}");
+    for other in ["<emitter type=\"constant\"/>", &fog, &two] {
+        assert!(scene(other).lanes().is_none(), "{other}");
+    }
+}
