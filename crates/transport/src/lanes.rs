@@ -78,7 +78,7 @@ pub struct LaneLightSample<F: Lane> {
     pub is_delta: F::Mask,
 }
 
-/// Directions sampled from scattering models, as [`BsdfSample`](crate::BsdfSample) describes them.
+/// Directions sampled from scattering models, as [`BsdfSample`] describes them.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneBsdfSample<F: Lane> {
     /// The lanes that have one; what others have does not matter.

@@ -296,13 +296,10 @@ impl World for Sphere {
     type Media = NoMedia;
     type Camera = Pinhole;
     type Sensor = Self;
-
     type Lanes = NoLanes;
-
     fn lanes(&self) -> Option<&NoLanes> {
         None
     }
-
     fn surfaces(&self) -> &Self {
         self
     }

@@ -145,10 +145,9 @@ impl Stack {
 
     /// Directions toward a light are uniform over a hemisphere; the sky has two.
     fn hemisphere_density(&self) -> f32 {
-        let choice = if self.fault == Fault::LightChoice {
-            1.0
-        } else {
-            self.light_total() as f32
+        let choice = match self.fault {
+            Fault::LightChoice => 1.0,
+            _ => self.light_total() as f32,
         };
         1.0 / (2.0 * PI * choice)
     }
@@ -198,10 +197,9 @@ impl Surfaces for Stack {
             primitive: 0,
             instance: InstanceId::NONE,
             material: MaterialId(hit.shape.0),
-            light: if plane.emits() {
-                LightId(hit.shape.0)
-            } else {
-                LightId::NONE
+            light: match plane.emits() {
+                true => LightId(hit.shape.0),
+                false => LightId::NONE,
             },
             media: etalon_transport::MediumInterface::NONE,
         }
@@ -289,13 +287,10 @@ impl World for Stack {
     type Media = NoMedia;
     type Camera = Camera1D;
     type Sensor = Self;
-
     type Lanes = NoLanes;
-
     fn lanes(&self) -> Option<&NoLanes> {
         None
     }
-
     fn surfaces(&self) -> &Self {
         self
     }
@@ -399,10 +394,9 @@ impl World for Stack {
         _: Vec3,
     ) -> Density<SolidAngle> {
         let there = from.position.z != at.position.z && at.light.is_some();
-        Density::uniform(if there {
-            self.hemisphere_density()
-        } else {
-            0.0
+        Density::uniform(match there {
+            true => self.hemisphere_density(),
+            false => 0.0,
         })
     }
     fn background_density(&self, _: &LightSampleContext, _: Vec3) -> Density<SolidAngle> {
