@@ -16,8 +16,7 @@ use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::lane::{F32x8, Lane, MOST_LANES, Mask, Select, Spectral, Vector, per_lane};
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    LaneBsdf, LaneKind, LaneLightSample, LaneReceiver, LaneShading, LaneVertices, ShadowQuery,
-    World,
+    LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, ShadowQuery, World,
 };
 use glam::Vec4;
 
@@ -28,7 +27,12 @@ type Lanes = F32x8;
 struct LaneConnection<F: Lane> {
     /// The lanes that have one.
     found: F::Mask,
-    light: LaneLightSample<F>,
+    /// Unit directions to the lights.
+    direction: F::Vector,
+    /// Where on the light, in lanes where it is not at infinity.
+    target: F::Vector,
+    /// Those lanes.
+    has_target: F::Mask,
     path: UnoccludedPath<F>,
 }
 
@@ -36,27 +40,14 @@ impl<F: Lane> LaneConnection<F> {
     /// `yes` in the lanes where `mask` says yes, `no` in the others.
     #[inline(always)]
     fn choose(mask: F::Mask, yes: Self, no: Self) -> Self {
-        let spectrum = |yes, no| F::Spectrum::choose(mask, yes, no);
         let vector = |yes, no| F::Vector::choose(mask, yes, no);
         let masks = |yes: F::Mask, no: F::Mask| (yes & mask) | (no & !mask);
         Self {
             found: masks(yes.found, no.found),
-            light: LaneLightSample {
-                found: masks(yes.light.found, no.light.found),
-                direction: vector(yes.light.direction, no.light.direction),
-                target: vector(yes.light.target, no.light.target),
-                has_target: masks(yes.light.has_target, no.light.has_target),
-                radiance: spectrum(yes.light.radiance, no.light.radiance),
-                chance: mask.select(yes.light.chance, no.light.chance),
-                is_delta: masks(yes.light.is_delta, no.light.is_delta),
-            },
-            path: UnoccludedPath {
-                throughput: PathThroughput {
-                    beta: spectrum(yes.path.throughput.beta, no.path.throughput.beta),
-                    r_u: spectrum(yes.path.throughput.r_u, no.path.throughput.r_u),
-                },
-                pdf_by_scattering: spectrum(yes.path.pdf_by_scattering, no.path.pdf_by_scattering),
-            },
+            direction: vector(yes.direction, no.direction),
+            target: vector(yes.target, no.target),
+            has_target: masks(yes.has_target, no.has_target),
+            path: UnoccludedPath::choose(mask, yes.path, no.path),
         }
     }
 }
@@ -82,14 +73,16 @@ impl<F: Lane, L: LaneShading> LaneVertex<'_, F, L> {
         let contribution = value * light.radiance;
         LaneConnection {
             found: light.found & !contribution.is_zero(),
+            direction: light.direction,
+            target: light.target,
+            has_target: light.has_target,
             path: UnoccludedPath::new(
                 &self.before,
-                self.before.r_u,
                 contribution,
-                density,
-                (light.chance, light.is_delta),
+                (F::Spectrum::uniform(light.chance), light.is_delta),
+                self.before.r_u * density,
+                [1.0; 2],
             ),
-            light,
         }
     }
 
@@ -279,9 +272,10 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             };
             for i in (0..F::WIDTH).filter(|i| connection.found.lane(*i)) {
                 let Arrived { path, vertex, .. } = arrived(i);
-                let light = &connection.light;
-                let target = (light.has_target.lane(i)).then(|| light.target.at_lane(i));
-                let Some(ray) = vertex.shadow_ray(light.direction.at_lane(i), target) else {
+                let direction = connection.direction.at_lane(i);
+                let has_target = connection.has_target.lane(i);
+                let target = has_target.then(|| connection.target.at_lane(i));
+                let Some(ray) = vertex.shadow_ray(direction, target) else {
                     continue;
                 };
                 let depth = paths[*path].depth;

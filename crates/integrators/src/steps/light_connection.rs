@@ -1,12 +1,10 @@
 //! Next-event estimation: a vertex of a path connected to a point of a light, weighted by multiple importance sampling.
 
 use crate::steps::path_throughput::PathThroughput;
-use etalon_math::lane::{Lane, Select, Spectral};
+use etalon_math::lane::{Lane, Spectral};
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{
-    Bsdf, LightSample, SamplePdf, SurfaceInteraction, Transmission, TransportMode, World,
-};
+use etalon_transport::{Bsdf, LightSample, SurfaceInteraction, Transmission, TransportMode, World};
 use glam::{Vec3, Vec4};
 
 /// A light sample before its shadow ray is traced.
@@ -25,28 +23,30 @@ pub(crate) struct UnoccludedPath<F: Lane = f32> {
     /// The throughput of the whole path, emission included; the transmittance of the shadow ray is not.
     pub(crate) throughput: PathThroughput<F>,
     /// pₜ,ₖ / p₀ of finding the same path by scattering, without the probability of passing null surfaces on the way.
-    pub(crate) pdf_by_scattering: F::Spectrum,
+    pdf_by_scattering: F::Spectrum,
 }
 
 impl<F: Lane> UnoccludedPath<F> {
     /// The path `before` to a vertex, extended to a light sample with this probability, or density if it is not `is_delta`.
-    /// `contribution` is the BSDF's value times the light's radiance, `density` that of the BSDF, and `scattered` is pₖ / p₀ of a
-    /// path that is scattered here.
+    /// `contribution` is the BSDF's value times the light's radiance, and `scattered` the density of scattering toward the light
+    /// times pₖ / p₀ of a path that is scattered here. `lights` samples of lights compete with `scattering` samples of the BSDF.
     #[inline]
     pub(crate) fn new(
         before: &PathThroughput<F>,
-        scattered: F::Spectrum,
         contribution: F::Spectrum,
-        density: F::Spectrum,
-        (chance, is_delta): (F, F::Mask),
+        (chance, is_delta): (F::Spectrum, F::Mask),
+        scattered: F::Spectrum,
+        [lights, scattering]: [f32; 2],
     ) -> Self {
         let mut throughput = *before;
-        throughput.scatter(contribution, F::Spectrum::uniform(chance));
+        throughput.scatter(contribution, chance);
+        throughput.r_u = throughput.r_u * F::splat(lights);
         // Scattering never finds a discrete light.
-        let found = is_delta.select(F::ZERO, F::ONE / chance);
+        let never = F::Spectrum::uniform(F::ZERO);
+        let found = scattered * (F::splat(scattering) / chance.hero());
         Self {
             throughput,
-            pdf_by_scattering: scattered * density * found,
+            pdf_by_scattering: F::Spectrum::choose(is_delta, never, found),
         }
     }
 
@@ -54,6 +54,19 @@ impl<F: Lane> UnoccludedPath<F> {
     #[inline]
     pub(crate) fn unoccluded(&self) -> F::Spectrum {
         (self.throughput).contribution(F::Spectrum::uniform(F::ONE), self.pdf_by_scattering)
+    }
+
+    /// `yes` in the lanes where `mask` says yes, `no` in the others.
+    #[inline(always)]
+    pub(crate) fn choose(mask: F::Mask, yes: Self, no: Self) -> Self {
+        let choose = |yes, no| F::Spectrum::choose(mask, yes, no);
+        Self {
+            throughput: PathThroughput {
+                beta: choose(yes.throughput.beta, no.throughput.beta),
+                r_u: choose(yes.throughput.r_u, no.throughput.r_u),
+            },
+            pdf_by_scattering: choose(yes.pdf_by_scattering, no.pdf_by_scattering),
+        }
     }
 
     /// The path in lane `index`.
@@ -110,25 +123,18 @@ impl LightConnection {
         scattered: Vec4,
         contribution: Vec4,
         density: Density<SolidAngle>,
-        [lights, scattering]: [f32; 2],
+        competing: [f32; 2],
     ) -> Self {
-        let mut throughput = *before;
-        throughput.scatter(contribution, light.chance.lanes());
-        throughput.r_u *= lights;
-        let pdf_by_scattering = match light.chance {
-            // Scattering never finds a discrete light.
-            SamplePdf::Discrete(_) => Vec4::ZERO,
-            SamplePdf::Continuous(chosen) => {
-                scattered * density.lanes() * light.extinction * (scattering / chosen.hero())
-            }
-        };
         Self {
             direction: light.direction,
             target: light.target,
-            path: UnoccludedPath {
-                throughput,
-                pdf_by_scattering,
-            },
+            path: UnoccludedPath::new(
+                before,
+                contribution,
+                (light.chance.lanes(), light.chance.is_delta()),
+                scattered * density.lanes() * light.extinction,
+                competing,
+            ),
         }
     }
 
