@@ -48,6 +48,10 @@ impl Piece<'_> {
             direction: probe.direction.as_dvec3(),
         };
         let mut after = order.earliest(probe);
+        if let Some(both) = self.shape.both_crossings(&line) {
+            let is_ahead = |t: &f64| *t > after && order.is_ahead(self.primitive, probe, *t);
+            return both.into_iter().find(is_ahead);
+        }
         loop {
             let crossing = self.shape.next_crossing(self.piece, &line, after, before)?;
             if order.is_ahead(self.primitive, probe, crossing.t) {

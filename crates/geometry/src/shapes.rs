@@ -226,6 +226,12 @@ impl Shape {
         }
     }
 
+    /// See [`ShapeModel::both_crossings`].
+    #[inline]
+    pub(crate) fn both_crossings(&self, line: &Line) -> Option<[f64; 2]> {
+        ask!(self, shape => shape.both_crossings(line))
+    }
+
     /// See [`ShapeModel::next_crossing`].
     #[inline]
     pub(crate) fn next_crossing(
@@ -238,9 +244,11 @@ impl Shape {
         ask!(self, shape => shape.next_crossing(piece, line, after, before))
     }
 
-    /// The crossing with a piece nearest to the parameter `t`, which is known to single precision; one at `t` if
-    /// there is none.
+    /// The crossing with a piece nearest to the parameter `t`, known to single precision; one at `t` if there is none.
     pub(crate) fn crossing_near(&self, piece: u32, line: &Line, t: f64) -> Crossing {
+        if let Some(both) = self.both_crossings(line) {
+            return Crossing::nearest_of_convex(both, t).unwrap_or(Crossing::new(t, true));
+        }
         let scale = line.origin.abs().max_element() / line.direction.length() + t.abs();
         // Some roundings of single precision, and as much more as it takes: a grazing ray starts far from where
         // its line crosses the surface that it leaves.

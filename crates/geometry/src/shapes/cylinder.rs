@@ -112,8 +112,8 @@ impl Cylinder {
 
 impl ShapeModel for Cylinder {
     #[inline]
-    fn next_crossing(&self, _: u32, line: &Line, after: f64, _: f64) -> Option<Crossing> {
-        Crossing::of_convex(self.crossings(line), after)
+    fn both_crossings(&self, line: &Line) -> Option<[f64; 2]> {
+        Some(self.crossings(line))
     }
 
     fn surface_at(&self, _: u32, p: DVec3, _: &Crossing) -> Option<LocalInteraction> {

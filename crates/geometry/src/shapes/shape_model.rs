@@ -34,8 +34,15 @@ pub(crate) trait ShapeModel {
             .map_or([DVec3::INFINITY, DVec3::NEG_INFINITY], Mesh::exact_bounds)
     }
 
+    /// The parameters of both crossings of a line with a shape that has no more, in ascending order, NaN where there is none; `None`
+    /// of other shapes. By default those of a small mesh that nearly touches another shape.
+    #[inline]
+    fn both_crossings(&self, line: &Line) -> Option<[f64; 2]> {
+        self.mesh().map(|mesh| mesh.crossings(line))
+    }
+
     /// The first crossing of a line with a piece beyond the parameter `after`. One at or beyond `before` need not be
-    /// found. By default that of a small mesh that nearly touches another shape.
+    /// found.
     #[inline]
     fn next_crossing(
         &self,
@@ -44,7 +51,7 @@ pub(crate) trait ShapeModel {
         after: f64,
         _before: f64,
     ) -> Option<Crossing> {
-        Crossing::of_convex(self.mesh()?.crossings(line), after)
+        Crossing::of_convex(self.both_crossings(line)?, after)
     }
 
     /// The surface at a crossing with a piece, which is at `p` up to rounding: `p` is projected first.

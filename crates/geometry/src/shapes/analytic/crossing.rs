@@ -76,4 +76,15 @@ impl Crossing {
             None
         }
     }
+
+    /// The one nearest to `t` of two crossings of a convex solid in ascending order, NaN if there is none.
+    #[inline]
+    pub(crate) fn nearest_of_convex([a, b]: [f64; 2], t: f64) -> Option<Self> {
+        let [to_a, to_b] = [a, b].map(|crossing| (crossing - t).abs());
+        if to_a <= to_b || b.is_nan() {
+            (!a.is_nan()).then_some(Self::new(a, true))
+        } else {
+            Some(Self::new(b, false))
+        }
+    }
 }
