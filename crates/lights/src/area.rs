@@ -96,47 +96,44 @@ impl LightModel for AreaLight {
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
-        let sampled = scene.sample_toward(self.shape, from, u);
-        let SampledPoint { point, density } = sampled.as_ref()?;
-        let density = *density;
-        let seen = LanePoint::<f32> {
-            position: point.position,
-            error: point.error,
-            normal: point.normal,
-            density,
+        // What varies over the shape needs more of a point than its place.
+        let lane = || scene.lanes_toward::<f32>(self.shape, &from.broadcast(), u.to_array());
+        let (point, place) = match (!self.varies).then(lane).flatten() {
+            Some(point) => (point, anywhere()),
+            None => {
+                let SampledPoint { point, density } = scene.sample_toward(self.shape, from, u)?;
+                let seen = LanePoint {
+                    position: point.position,
+                    error: point.error,
+                    normal: point.normal,
+                    density,
+                };
+                (seen, point.texture)
+            }
         };
-        let (found, direction, target) = connected(&seen, from.position);
-        if !found {
-            return None;
-        }
-        Some(LightSample {
+        let (found, direction, target) = connected::<f32>(&point, from.position);
+        let cos = -point.normal.dot(direction);
+        found.then(|| LightSample {
             direction,
             target: Some(target),
-            radiance: self.emitted(scene, point, -direction, wavelengths),
-            chance: SamplePdf::Continuous(Density::uniform(density)),
-            cos: -point.normal.dot(direction),
+            radiance: match cos > 0.0 {
+                true => scene.spectrum(self.radiance, &place, wavelengths.lambda),
+                false => Vec4::ZERO,
+            },
+            chance: SamplePdf::Continuous(Density::uniform(point.density)),
+            cos,
             origin: LightKind::Surface,
             extinction: Vec4::ONE,
             light: LightId::NONE,
         })
     }
 
-    fn has_lanes(&self, shapes: &impl Shapes) -> bool {
-        let from = LaneReceiver::<f32> {
-            position: Vec3::ZERO,
-            normal: Vec3::ZERO,
-            one_sided: false,
-            time: 0.0,
-        };
-        !self.varies && shapes.lanes_toward(self.shape, &from, [0.5; 2]).is_some()
-    }
-
     #[inline]
     fn sample_lanes<F: Lane>(
         &self,
         scene: &(impl Textures + Shapes),
-        from: &LaneReceiver<F>,
-        wavelengths: &[Wavelengths],
+        (from, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
+        wanted: F::Mask,
         u: [F; 2],
     ) -> Option<LaneLightSample<F>> {
         if self.varies {
@@ -145,15 +142,17 @@ impl LightModel for AreaLight {
         let point = scene.lanes_toward(self.shape, from, u)?;
         let (found, direction, target) = connected(&point, from.position);
         let at = anywhere();
-        let radiance = |i: usize| scene.spectrum(self.radiance, &at, wavelengths[i].lambda);
-        let shines = point.normal.dot_product(-direction).gt(F::ZERO);
-        let dark = F::Spectrum::uniform(F::ZERO);
+        let shines = wanted & found & point.normal.dot_product(-direction).gt(F::ZERO);
+        let radiance = |i: usize| match shines.lane(i) {
+            true => scene.spectrum(self.radiance, &at, wavelengths[i].lambda),
+            false => Vec4::ZERO,
+        };
         Some(LaneLightSample {
             found,
             direction,
             target,
             has_target: F::Mask::splat(true),
-            radiance: F::Spectrum::choose(shines, F::Spectrum::of_lanes(radiance), dark),
+            radiance: F::Spectrum::of_lanes(radiance),
             chance: point.density,
             is_delta: F::Mask::splat(false),
         })

@@ -15,17 +15,18 @@
 use crate::light::anywhere;
 use crate::light_model::LightModel;
 use crate::{BoundingSphere, sky};
-use etalon_math::{Density, Frame, SolidAngle};
+use etalon_math::lane::{Lane, LaneFrame, Mask, Select, Spectral, Vector};
+use etalon_math::{Density, SolidAngle};
 use etalon_params::Params;
 use etalon_sampling::warps::{
-    UNIFORM_SPHERE_DENSITY, cosine_hemisphere_density, square_to_cosine_hemisphere,
-    square_to_uniform_sphere,
+    UNIFORM_SPHERE_DENSITY, cosine_density, cosine_hemisphere, square_to_uniform_sphere,
+    uniform_sphere,
 };
 use etalon_spectrum::Wavelengths;
 use etalon_transport::refuse_varying;
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, SpectrumKind, TextureId,
-    Textures,
+    Build, Emission, EmissionPdf, LaneLightSample, LaneReceiver, LightSample, LightSampleContext,
+    Shapes, SpectrumKind, TextureId, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -44,6 +45,36 @@ impl ConstantLight {
             radiance: build.texture(params, "radiance", Some(1.0), SpectrumKind::Emission),
         }
     }
+}
+
+/// The density (sr⁻¹) with which a receiver chooses a direction.
+#[inline(always)]
+fn density_toward<F: Lane>(from: &LaneReceiver<F>, direction: F::Vector) -> F {
+    let cos = from.normal.dot_product(direction);
+    let on_both = (cosine_density(cos.abs()) * 0.5 + UNIFORM_SPHERE_DENSITY) * 0.5;
+    let on_surface = from.one_sided.select(cosine_density(cos), on_both);
+    let uniform = F::splat(UNIFORM_SPHERE_DENSITY);
+    from.normal.is_zero().select(uniform, on_surface)
+}
+
+/// A direction with this density.
+#[inline(always)]
+fn direction_toward<F: Lane>(from: &LaneReceiver<F>, [u, v]: [F; 2]) -> F::Vector {
+    let in_space = from.normal.is_zero();
+    // On both sides, the first number chooses among four quarters, and is used again within its own.
+    let quarter = u * 4.0;
+    let first = quarter.lt(F::ONE);
+    let above = quarter - first.select(F::ZERO, F::ONE);
+    let about = cosine_hemisphere([from.one_sided.select(u, above), v]);
+    let about = LaneFrame::<F>::from_normal(from.normal).to_world(about);
+    let below = !(from.one_sided | first);
+    let about = F::Vector::choose(below, -about, about);
+    let anywhere = in_space | (!from.one_sided & quarter.ge(F::splat(2.0)));
+    if !anywhere.any() {
+        return about;
+    }
+    let again = in_space.select(u, quarter * 0.5 - 1.0);
+    F::Vector::choose(anywhere, uniform_sphere([again, v]), about)
 }
 
 impl LightModel for ConstantLight {
@@ -87,14 +118,7 @@ impl LightModel for ConstantLight {
         from: &LightSampleContext,
         direction: Vec3,
     ) -> Density<SolidAngle> {
-        let cos = from.normal.dot(direction);
-        Density::uniform(if from.normal == Vec3::ZERO {
-            UNIFORM_SPHERE_DENSITY
-        } else if from.one_sided {
-            cosine_hemisphere_density(cos)
-        } else {
-            0.5 * (UNIFORM_SPHERE_DENSITY + 0.5 * cosine_hemisphere_density(cos.abs()))
-        })
+        Density::uniform(density_toward::<f32>(&from.broadcast(), direction))
     }
 
     #[inline]
@@ -105,25 +129,37 @@ impl LightModel for ConstantLight {
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
-        let about =
-            |u: Vec2| Frame::from_normal(from.normal).to_world(square_to_cosine_hemisphere(u));
-        let direction = if from.normal == Vec3::ZERO {
-            square_to_uniform_sphere(u)
-        } else if from.one_sided {
-            about(u)
-        } else {
-            // The first number chooses among four quarters, and is used again within its own.
-            let quarter = 4.0 * u.x;
-            match quarter {
-                ..1.0 => about(Vec2::new(quarter, u.y)),
-                1.0..2.0 => -about(Vec2::new(quarter - 1.0, u.y)),
-                _ => square_to_uniform_sphere(Vec2::new(0.5 * quarter - 1.0, u.y)),
-            }
-        };
-        let density = self.background_density(from, direction);
-        (density.hero() > 0.0).then(|| {
+        let from = from.broadcast();
+        let direction = direction_toward::<f32>(&from, u.to_array());
+        let density = density_toward::<f32>(&from, direction);
+        (density > 0.0).then(|| {
             let radiance = self.background(textures, direction, wavelengths);
-            sky::sample(direction, radiance, density)
+            sky::sample(direction, radiance, Density::uniform(density))
+        })
+    }
+
+    #[inline]
+    fn sample_lanes<F: Lane>(
+        &self,
+        textures: &(impl Textures + Shapes),
+        (from, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
+        wanted: F::Mask,
+        u: [F; 2],
+    ) -> Option<LaneLightSample<F>> {
+        let direction = direction_toward(from, u);
+        let density = density_toward(from, direction);
+        let radiance = |i: usize| match wanted.lane(i) {
+            true => self.background(textures, Vec3::ZERO, &wavelengths[i]),
+            false => Vec4::ZERO,
+        };
+        Some(LaneLightSample {
+            found: density.gt(F::ZERO),
+            direction,
+            target: F::Vector::broadcast(Vec3::ZERO),
+            has_target: F::Mask::splat(false),
+            radiance: F::Spectrum::of_lanes(radiance),
+            chance: density,
+            is_delta: F::Mask::splat(false),
         })
     }
 

@@ -16,7 +16,8 @@
 //! not folded to that side, and I = 0 where θᵢ′ is beyond a right angle.
 
 use etalon_math::DirectionCone;
-use etalon_transport::LightSampleContext;
+use etalon_math::lane::{Lane, Select, Vector};
+use etalon_transport::LaneReceiver;
 use glam::{DVec3, Vec3};
 
 /// Bounds of lights, in double precision, for building.
@@ -66,38 +67,47 @@ impl LightExtent {
     }
 }
 
-/// The same in single precision, for asking.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightBounds {
-    centre: Vec3,
+/// The same in single precision, for asking; bounds of several clusters in lanes.
+#[derive(Clone, Copy, Debug)]
+pub struct LightBounds<F: Lane = f32> {
+    centre: F::Vector,
     /// r².
-    radius_squared: f32,
-    axis: Vec3,
-    cos_spread: f32,
-    sin_spread: f32,
-    cos_edge: f32,
-    power: f32,
+    radius_squared: F,
+    axis: F::Vector,
+    cos_spread: F,
+    sin_spread: F,
+    cos_edge: F,
+    power: F,
 }
 
 /// The angle max(0, a − b), as cosine and sine.
-#[inline]
-fn less(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
+#[inline(always)]
+fn less<F: Lane>(a: [F; 2], b: [F; 2]) -> [F; 2] {
     let ([cos_a, sin_a], [cos_b, sin_b]) = (a, b);
-    if cos_a > cos_b {
-        return [1.0, 0.0];
-    }
+    let none = cos_a.gt(cos_b);
     [
-        cos_a * cos_b + sin_a * sin_b,
-        (sin_a * cos_b - cos_a * sin_b).max(0.0),
+        none.select(F::ONE, cos_a * cos_b + sin_a * sin_b),
+        none.select(F::ZERO, (sin_a * cos_b - cos_a * sin_b).max(F::ZERO)),
     ]
 }
 
-#[inline]
-fn sine(cosine: f32) -> f32 {
-    (1.0 - cosine * cosine).max(0.0).sqrt()
+#[inline(always)]
+fn sine<F: Lane>(cosine: F) -> F {
+    (F::ONE - cosine * cosine).safe_sqrt()
 }
 
 impl LightBounds {
+    /// Those of no light.
+    pub(crate) const NONE: Self = Self {
+        centre: Vec3::ZERO,
+        radius_squared: 0.0,
+        axis: Vec3::Z,
+        cos_spread: 1.0,
+        sin_spread: 0.0,
+        cos_edge: 0.0,
+        power: 0.0,
+    };
+
     /// The bounds of lights within `extent`.
     pub fn new(extent: &LightExtent) -> Self {
         let half = 0.5 * (extent.high - extent.low);
@@ -111,44 +121,68 @@ impl LightBounds {
             radius_squared: (radius * radius) as f32,
             axis: extent.normals.axis.as_vec3(),
             cos_spread,
-            sin_spread: sine(cos_spread),
+            sin_spread: sine::<f32>(cos_spread),
             cos_edge: (extent.cos_edge - 1e-6) as f32,
             power: extent.power as f32,
         }
     }
 
-    /// I(x, n): not below 0, and 0 only where nothing arrives.
-    #[inline]
-    pub fn at(&self, from: &LightSampleContext) -> f32 {
-        let to_centre = self.centre - from.position;
-        let squared = to_centre.length_squared();
-        if squared <= self.radius_squared {
-            return self.power / self.radius_squared;
+    /// The same bounds in every lane.
+    #[inline(always)]
+    pub(crate) fn broadcast<F: Lane>(&self) -> LightBounds<F> {
+        LightBounds {
+            centre: F::Vector::broadcast(self.centre),
+            radius_squared: F::splat(self.radius_squared),
+            axis: F::Vector::broadcast(self.axis),
+            cos_spread: F::splat(self.cos_spread),
+            sin_spread: F::splat(self.sin_spread),
+            cos_edge: F::splat(self.cos_edge),
+            power: F::splat(self.power),
         }
-        let direction = to_centre / squared.sqrt();
+    }
+}
+
+impl<F: Lane> LightBounds<F> {
+    /// `bounds(i)` in lane i.
+    #[inline(always)]
+    pub(crate) fn of_lanes<'b>(bounds: impl Fn(usize) -> &'b LightBounds) -> Self {
+        Self {
+            centre: F::Vector::of_lanes(|i| bounds(i).centre),
+            radius_squared: F::from_fn(|i| bounds(i).radius_squared),
+            axis: F::Vector::of_lanes(|i| bounds(i).axis),
+            cos_spread: F::from_fn(|i| bounds(i).cos_spread),
+            sin_spread: F::from_fn(|i| bounds(i).sin_spread),
+            cos_edge: F::from_fn(|i| bounds(i).cos_edge),
+            power: F::from_fn(|i| bounds(i).power),
+        }
+    }
+
+    /// I(x, n): not below 0, and 0 only where nothing arrives.
+    #[inline(always)]
+    pub fn at(&self, from: &LaneReceiver<F>) -> F {
+        let to_centre = self.centre - from.position;
+        let squared = to_centre.dot_product(to_centre);
+        let direction = to_centre.over(squared.sqrt());
         // θᵤ is below a right angle outside of the sphere.
         let sin_sphere_squared = self.radius_squared / squared;
         let sphere = [
-            (1.0 - sin_sphere_squared).max(0.0).sqrt(),
+            (F::ONE - sin_sphere_squared).safe_sqrt(),
             sin_sphere_squared.sqrt(),
         ];
-        let cos = -self.axis.dot(direction);
-        let mut angle = [cos, sine(cos)];
-        if cos > self.cos_spread {
-            angle = [1.0, 0.0];
-        } else {
-            angle = less(angle, [self.cos_spread, self.sin_spread]);
-            angle = less(angle, sphere);
-        }
-        if angle[0] <= self.cos_edge {
-            return 0.0;
-        }
-        let mut promise = self.power * angle[0] / squared;
-        if from.normal != Vec3::ZERO {
-            let cos = from.normal.dot(direction).clamp(-1.0, 1.0);
-            let cos = if from.one_sided { cos } else { cos.abs() };
-            promise *= LightSampleContext::counted(less([cos, sine(cos)], sphere)[0]);
-        }
-        promise
+        let cos = -self.axis.dot_product(direction);
+        let beyond = less(
+            less([cos, sine(cos)], [self.cos_spread, self.sin_spread]),
+            sphere,
+        );
+        let cos_light = cos.gt(self.cos_spread).select(F::ONE, beyond[0]);
+        let promise = self.power * cos_light / squared;
+
+        let cos = from.normal.dot_product(direction).clamp(-1.0, 1.0);
+        let cos = from.one_sided.select(cos, cos.abs());
+        let facing = LaneReceiver::<F>::counted(less([cos, sine(cos)], sphere)[0]);
+        let promise = from.normal.is_zero().select(promise, promise * facing);
+        let promise = cos_light.le(self.cos_edge).select(F::ZERO, promise);
+        let inside = squared.le(self.radius_squared);
+        inside.select(self.power / self.radius_squared, promise)
     }
 }

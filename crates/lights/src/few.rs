@@ -12,9 +12,10 @@
 //! light that reaches the receiver has less than half of its uniform probability.
 
 use crate::extent::{LightBounds, LightExtent};
-use crate::light_sampler::{Candidate, LightChoice, LightSamplerKind};
+use crate::light_sampler::{Candidate, LaneLightChoice, LightChoice, LightSamplerKind};
 use etalon_math::float::ONE_MINUS_EPSILON;
-use etalon_transport::{LightId, LightSampleContext};
+use etalon_math::lane::{F32x8, Int, Lane, Mask, Select, Vector};
+use etalon_transport::{LaneReceiver, LightId, LightSampleContext};
 use glam::Vec3;
 
 /// The least share of the strongest light's power that a light is taken to have, so that its irradiance
@@ -25,6 +26,8 @@ const LEAST: f64 = 1e-15;
 #[derive(Clone, Debug)]
 pub struct FewLights {
     lights: Vec<One>,
+    /// The bounds of those that are near, light i in lane i.
+    near: LightBounds<F32x8>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -45,12 +48,14 @@ enum Expected {
 }
 
 impl Expected {
-    #[inline]
-    fn at(&self, from: &LightSampleContext) -> f32 {
+    #[inline(always)]
+    fn at<F: Lane>(&self, from: &LaneReceiver<F>) -> F {
         match self {
-            Self::Near(promise) => promise.at(from),
-            Self::Sky(irradiance) => *irradiance,
-            Self::Parallel(irradiance, toward) => irradiance * from.facing(*toward),
+            Self::Near(bounds) => bounds.broadcast::<F>().at(from),
+            Self::Sky(irradiance) => F::splat(*irradiance),
+            Self::Parallel(irradiance, toward) => {
+                from.facing(F::Vector::broadcast(*toward)) * *irradiance
+            }
         }
     }
 }
@@ -83,50 +88,87 @@ impl FewLights {
             })
         };
         let lights: Vec<One> = lights.iter().enumerate().filter_map(one).collect();
+        let near = LightBounds::of_lanes(|i| match lights.get(i).map(|one| &one.expected) {
+            Some(Expected::Near(bounds)) => bounds,
+            _ => &LightBounds::NONE,
+        });
         (2..=LightSamplerKind::FEW)
             .contains(&lights.len())
-            .then_some(Self { lights })
+            .then_some(Self { lights, near })
     }
 
-    /// The probability of each light, in the order in which they are kept; zeros if none reaches `from`.
+    /// The expected irradiance of each light at several receivers.
+    #[inline(always)]
+    fn expected<F: Lane>(&self, from: &LaneReceiver<F>) -> [F; LightSamplerKind::FEW] {
+        let mut expected = [F::ZERO; LightSamplerKind::FEW];
+        for (expected, one) in expected.iter_mut().zip(&self.lights) {
+            *expected = one.expected.at(from);
+        }
+        expected
+    }
+
+    /// The same at one receiver, for which the lanes are lights.
     #[inline]
-    fn shares(&self, from: &LightSampleContext) -> [f32; LightSamplerKind::FEW] {
-        let mut shares = [0.0; LightSamplerKind::FEW];
-        let (mut expected, mut weights) = (0.0, 0.0);
-        for (share, one) in shares.iter_mut().zip(&self.lights) {
-            *share = one.weight * one.expected.at(from);
-            if *share > 0.0 {
-                expected += *share;
-                weights += one.weight;
+    fn expected_at_one(&self, from: &LightSampleContext) -> [f32; LightSamplerKind::FEW] {
+        let mut expected = [0.0; LightSamplerKind::FEW];
+        self.near.at(&from.broadcast()).store(&mut expected);
+        for (expected, one) in expected.iter_mut().zip(&self.lights) {
+            if !matches!(one.expected, Expected::Near(_)) {
+                *expected = one.expected.at::<f32>(&from.broadcast());
             }
         }
-        if expected > 0.0 {
-            let (by_expected, by_weight) = (0.5 / expected, 0.5 / weights);
-            for (share, one) in shares.iter_mut().zip(&self.lights) {
-                if *share > 0.0 {
-                    *share = *share * by_expected + one.weight * by_weight;
-                }
-            }
+        expected
+    }
+
+    /// The probability of each light, in the order in which they are kept; zeros if nothing is expected.
+    #[inline(always)]
+    fn shares<F: Lane>(&self, expected: [F; LightSamplerKind::FEW]) -> [F; LightSamplerKind::FEW] {
+        let mut shares = expected;
+        let (mut expected, mut weights) = (F::ZERO, F::ZERO);
+        for (share, one) in shares.iter_mut().zip(&self.lights) {
+            *share = *share * one.weight;
+            let reaches = share.gt(F::ZERO);
+            expected = reaches.select(expected + *share, expected);
+            weights = reaches.select(weights + one.weight, weights);
+        }
+        let (by_expected, by_weight) = (F::splat(0.5) / expected, F::splat(0.5) / weights);
+        for (share, one) in shares.iter_mut().zip(&self.lights) {
+            let probability = *share * by_expected + by_weight * one.weight;
+            *share = share.gt(F::ZERO).select(probability, *share);
         }
         shares
     }
 
     /// Chooses a light for `from`; `None` if none reaches it.
     #[inline]
-    pub fn choose(&self, from: &LightSampleContext, mut u: f32) -> Option<LightChoice> {
-        let mut choice = None;
-        for (&probability, one) in self.shares(from).iter().zip(&self.lights) {
-            if probability > 0.0 {
-                choice = Some(LightChoice {
-                    light: one.light,
-                    probability,
-                    rest: (u / probability).min(ONE_MINUS_EPSILON),
-                });
-                if u < probability {
-                    break;
-                }
-                u -= probability;
+    pub fn choose(&self, from: &LightSampleContext, u: f32) -> Option<LightChoice> {
+        self.chosen::<f32>(self.expected_at_one(from), u).only()
+    }
+
+    /// Chooses a light for every receiver that one reaches.
+    #[inline(always)]
+    pub fn choose_lanes<F: Lane>(&self, from: &LaneReceiver<F>, u: F) -> LaneLightChoice<F> {
+        self.chosen(self.expected(from), u)
+    }
+
+    #[inline(always)]
+    fn chosen<F: Lane>(&self, expected: [F; LightSamplerKind::FEW], u: F) -> LaneLightChoice<F> {
+        let mut u = u;
+        let mut choice = LaneLightChoice::<F>::none();
+        let mut open = F::Mask::splat(true);
+        for (&probability, one) in self.shares(expected).iter().zip(&self.lights) {
+            // The last that is possible, should rounding leave a rest.
+            let here = open & probability.gt(F::ZERO);
+            choice.found = choice.found | here;
+            choice.light = here.select(F::Int::splat(one.light.0), choice.light);
+            choice.probability = here.select(probability, choice.probability);
+            let rest = (u / probability).min(F::splat(ONE_MINUS_EPSILON));
+            choice.rest = here.select(rest, choice.rest);
+            open = open & !(here & u.lt(probability));
+            if !open.any() {
+                break;
             }
+            u = here.select(u - probability, u);
         }
         choice
     }
@@ -135,6 +177,6 @@ impl FewLights {
     #[inline]
     pub fn probability(&self, from: &LightSampleContext, light: LightId) -> f32 {
         let at = self.lights.iter().position(|one| one.light == light);
-        at.map_or(0.0, |at| self.shares(from)[at])
+        at.map_or(0.0, |at| self.shares::<f32>(self.expected_at_one(from))[at])
     }
 }

@@ -193,21 +193,16 @@ impl Light {
         ask!(self, light => light.sample(scene, from, wavelengths, u))
     }
 
-    /// Whether its directions can be sampled in lanes.
-    pub fn has_lanes(&self, shapes: &impl Shapes) -> bool {
-        ask!(self, light => light.has_lanes(shapes))
-    }
-
-    /// Samples directions in lanes; `None` if it has none.
+    /// Samples directions in lanes, where they are `wanted` at least; `None` if it has none.
     #[inline]
     pub fn sample_lanes<F: Lane>(
         &self,
         scene: &(impl Textures + Shapes),
-        from: &LaneReceiver<F>,
-        wavelengths: &[Wavelengths],
+        (from, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
+        wanted: F::Mask,
         u: [F; 2],
     ) -> Option<LaneLightSample<F>> {
-        ask!(self, light => light.sample_lanes(scene, from, wavelengths, u))
+        ask!(self, light => light.sample_lanes(scene, (from, wavelengths), wanted, u))
     }
 
     /// Whether all its samples bring `from` the same irradiance if nothing is in the way.

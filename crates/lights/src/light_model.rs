@@ -49,18 +49,13 @@ pub(crate) trait LightModel {
         u: Vec2,
     ) -> Option<LightSample>;
 
-    /// Whether its directions can be sampled in lanes.
-    fn has_lanes(&self, _: &impl Shapes) -> bool {
-        false
-    }
-
-    /// Samples directions in lanes; `None` if it has none.
+    /// Samples directions in lanes, where they are `wanted` at least; `None` if it has none.
     #[inline]
     fn sample_lanes<F: Lane>(
         &self,
         _: &(impl Textures + Shapes),
-        _from: &LaneReceiver<F>,
-        _: &[Wavelengths],
+        _: (&LaneReceiver<F>, &[Wavelengths]),
+        _: F::Mask,
         _u: [F; 2],
     ) -> Option<LaneLightSample<F>> {
         None

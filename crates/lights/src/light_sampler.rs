@@ -10,8 +10,9 @@
 use crate::extent::LightExtent;
 use crate::few::FewLights;
 use crate::tree::LightTree;
+use etalon_math::lane::{Int, Lane, Mask, Select, per_lane};
 use etalon_sampling::discrete::AliasTable;
-use etalon_transport::{LightId, LightSampleContext};
+use etalon_transport::{LaneReceiver, LightId, LightSampleContext};
 use glam::Vec3;
 
 /// A chosen light.
@@ -23,6 +24,75 @@ pub struct LightChoice {
     pub probability: f32,
     /// The random number rescaled for reuse: uniform in [0, 1).
     pub rest: f32,
+}
+
+/// Chosen lights, one for each of several receivers.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneLightChoice<F: Lane> {
+    /// The lanes that have one; what others have does not matter.
+    pub found: F::Mask,
+    /// The indices of the lights.
+    pub light: F::Int,
+    /// The probability of having chosen each.
+    pub probability: F,
+    /// The random numbers rescaled for reuse.
+    pub rest: F,
+}
+
+impl<F: Lane> LaneLightChoice<F> {
+    /// No light in any lane.
+    #[inline(always)]
+    pub(crate) fn none() -> Self {
+        Self {
+            found: F::Mask::splat(false),
+            light: F::Int::splat(0),
+            probability: F::ZERO,
+            rest: F::ZERO,
+        }
+    }
+
+    /// `choice(i)` in lane i.
+    #[inline(always)]
+    fn of_lanes(choice: impl Fn(usize) -> Option<LightChoice>) -> Self {
+        let choices = per_lane::<F, _>(choice);
+        let number =
+            |of: fn(&LightChoice) -> f32| F::from_fn(|i| choices[i].as_ref().map_or(0.0, of));
+        Self {
+            found: F::Mask::from_fn(|i| choices[i].is_some()),
+            light: F::Int::from_fn(|i| choices[i].map_or(0, |choice| choice.light.0)),
+            probability: number(|choice| choice.probability),
+            rest: number(|choice| choice.rest),
+        }
+    }
+
+    /// `yes` in the lanes where `mask` says yes, `no` in the others.
+    #[inline(always)]
+    fn choose(mask: F::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            found: (yes.found & mask) | (no.found & !mask),
+            light: mask.select(yes.light, no.light),
+            probability: mask.select(yes.probability, no.probability),
+            rest: mask.select(yes.rest, no.rest),
+        }
+    }
+
+    /// The choice in lane `index`, which has one.
+    #[inline(always)]
+    pub(crate) fn at_lane(&self, index: usize) -> LightChoice {
+        LightChoice {
+            light: LightId(self.light.lane(index)),
+            probability: self.probability.lane(index),
+            rest: self.rest.lane(index),
+        }
+    }
+}
+
+impl LaneLightChoice<f32> {
+    /// The choice, where there is one lane.
+    #[inline(always)]
+    pub(crate) fn only(self) -> Option<LightChoice> {
+        self.found.then(|| self.at_lane(0))
+    }
 }
 
 /// How a light is selected for a receiver.
@@ -174,30 +244,44 @@ impl LightSampler {
     #[inline]
     pub fn choose(&self, from: &LightSampleContext, u: f32) -> Option<LightChoice> {
         match &self.for_points {
-            None => self.choose_to_emit(u),
-            Some(ForPoints::Table(table)) => chosen(table, u),
             Some(ForPoints::Few(few)) => few.choose(from, u),
+            _ => self.choose_lanes::<f32>(&from.broadcast(), u).only(),
+        }
+    }
+
+    /// The same for several receivers.
+    #[inline(always)]
+    pub fn choose_lanes<F: Lane>(&self, from: &LaneReceiver<F>, u: F) -> LaneLightChoice<F> {
+        let (tree, far, far_share) = match &self.for_points {
+            None => return LaneLightChoice::of_lanes(|i| self.choose_to_emit(u.lane(i))),
+            Some(ForPoints::Table(table)) => {
+                return LaneLightChoice::of_lanes(|i| chosen(table, u.lane(i)));
+            }
+            Some(ForPoints::Few(few)) => return few.choose_lanes(from, u),
             Some(ForPoints::Tree {
                 tree,
                 far,
                 far_share,
-            }) => match far {
-                Some(far) if u < *far_share => {
-                    chosen(far, u / far_share).map(|choice| LightChoice {
-                        probability: choice.probability * far_share,
-                        ..choice
-                    })
-                }
-                _ => {
-                    let near = 1.0 - far_share;
-                    let choice = tree.choose(from, (u - far_share) / near)?;
-                    Some(LightChoice {
-                        probability: choice.probability * near,
-                        ..choice
-                    })
-                }
-            },
+            }) => (tree, far, *far_share),
+        };
+        let is_far = u.lt(F::splat(far_share));
+        let share = 1.0 - far_share;
+        let mut choice = match is_far.all() {
+            true => LaneLightChoice::none(),
+            false => tree.choose(from, (u - far_share) / share),
+        };
+        choice.probability = choice.probability * share;
+        if let Some(far) = far
+            && is_far.any()
+        {
+            let mut at_infinity = LaneLightChoice::of_lanes(|i| {
+                let choose = || chosen(far, u.lane(i) / far_share);
+                is_far.lane(i).then(choose).flatten()
+            });
+            at_infinity.probability = at_infinity.probability * far_share;
+            choice = LaneLightChoice::choose(is_far, at_infinity, choice);
         }
+        choice
     }
 
     /// The probability with which [`LightSampler::choose`] chooses `light` for the point

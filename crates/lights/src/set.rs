@@ -1,9 +1,10 @@
 //! All lights of a scene.
 
 use crate::{
-    BoundingSphere, Candidate, Far, Light, LightDescription, LightSampler, LightSamplerKind,
+    BoundingSphere, Candidate, Far, Light, LightChoice, LightDescription, LightSampler,
+    LightSamplerKind,
 };
-use etalon_math::lane::Lane;
+use etalon_math::lane::{Int, Lane, Mask};
 use etalon_math::{DeltaProbability, Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
@@ -173,16 +174,25 @@ impl LightSet {
         u: Vec2,
     ) -> Option<LightSample> {
         let choice = self.selector.choose(from, u_light)?;
+        self.sample_chosen(scene, choice, from, wavelengths, u)
+    }
+
+    /// The sample of a light that has been chosen.
+    #[inline]
+    fn sample_chosen(
+        &self,
+        scene: &(impl Textures + Shapes),
+        choice: LightChoice,
+        from: &LightSampleContext,
+        wavelengths: &Wavelengths,
+        u: Vec2,
+    ) -> Option<LightSample> {
         let mut sampled = self.get(choice.light).sample(scene, from, wavelengths, u);
         // In place: it is not copied.
         let sample = sampled.as_mut()?;
         sample.light = choice.light;
         match &mut sample.chance {
-            // Several skies seen in one direction are one technique: whichever chose the
-            // direction, a ray that goes there sees all of them.
-            SamplePdf::Continuous(density)
-                if self.backgrounds.len() > 1 && sample.target.is_none() =>
-            {
+            SamplePdf::Continuous(density) if self.are_one(sample.target.is_none()) => {
                 sample.radiance = self.background(scene, sample.direction, wavelengths);
                 *density = self.background_density(from, sample.direction);
             }
@@ -192,23 +202,62 @@ impl LightSet {
         sampled
     }
 
-    /// Whether directions can be sampled in lanes.
-    pub fn has_lanes(&self, shapes: &impl Shapes) -> bool {
-        (self.lone.map(|light| self.get(light))).is_some_and(|light| light.has_lanes(shapes))
+    /// Whether a sample, at infinity or not, is of several skies: seen in one direction, they are one technique, since a ray that
+    /// goes there sees all of them, whichever of them chose it.
+    #[inline]
+    fn are_one(&self, at_infinity: bool) -> bool {
+        at_infinity && self.backgrounds.len() > 1
     }
 
-    /// [`LightSet::sample`] in lanes; `None` if it has none.
+    /// [`LightSet::sample`] for several receivers, in the lanes where it is `wanted`.
     #[inline]
     pub fn sample_lanes<F: Lane>(
         &self,
         scene: &(impl Textures + Shapes),
-        from: &LaneReceiver<F>,
-        wavelengths: &[Wavelengths],
+        (from, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
+        wanted: F::Mask,
+        u_light: F,
         u: [F; 2],
-    ) -> Option<LaneLightSample<F>> {
-        // The only light is chosen with probability 1.
-        self.get(self.lone?)
-            .sample_lanes(scene, from, wavelengths, u)
+    ) -> LaneLightSample<F> {
+        if let Some(light) = self.lone
+            && let Some(sample) =
+                (self.get(light)).sample_lanes(scene, (from, wavelengths), wanted, u)
+        {
+            // It is chosen with probability 1.
+            return sample;
+        }
+        let choice = self.selector.choose_lanes(from, u_light);
+        let chosen = choice.found & wanted;
+        let mut sample = LaneLightSample::of_lanes(|_| None);
+        // Lanes whose light must be sampled by itself.
+        let mut alone = 0;
+        let mut left = chosen.bits();
+        while left != 0 {
+            let light = choice.light.lane(left.trailing_zeros() as usize);
+            let lanes = chosen & choice.light.eq(F::Int::splat(light));
+            left &= !lanes.bits();
+            let light = self.get(LightId(light));
+            let one = self.are_one(light.is_background());
+            match light
+                .sample_lanes(scene, (from, wavelengths), wanted, u)
+                .filter(|_| !one)
+            {
+                Some(found) => sample = LaneLightSample::choose(lanes, found, sample),
+                None => alone |= lanes.bits(),
+            }
+        }
+        sample.chance = sample.chance * choice.probability;
+        if alone == 0 {
+            return sample;
+        }
+        let is_alone = |i: usize| alone >> i & 1 != 0;
+        let by_itself = LaneLightSample::of_lanes(|i| {
+            let u = Vec2::from(u.map(|u| u.lane(i)));
+            let at =
+                |choice| self.sample_chosen(scene, choice, &from.at_lane(i), &wavelengths[i], u);
+            is_alone(i).then(|| at(choice.at_lane(i))).flatten()
+        });
+        LaneLightSample::choose(F::Mask::from_fn(is_alone), by_itself, sample)
     }
 
     /// How samples of [`LightSet::sample`] from `from` vary.

@@ -7,9 +7,10 @@
 //! splitting, 2018, section 4.3; the traversal is theirs without splitting).
 
 use crate::extent::{LightBounds, LightExtent};
-use crate::light_sampler::LightChoice;
+use crate::light_sampler::LaneLightChoice;
 use etalon_math::float::ONE_MINUS_EPSILON;
-use etalon_transport::{LightId, LightSampleContext};
+use etalon_math::lane::{Int, Lane, Mask, Select};
+use etalon_transport::{LaneReceiver, LightId, LightSampleContext};
 use glam::DVec3;
 
 /// The child of a node.
@@ -95,39 +96,57 @@ impl LightTree {
     /// anything there.
     #[inline]
     fn first(&self, node: usize, second: u32, from: &LightSampleContext) -> Option<f32> {
-        let a = self.nodes[node + 1].promise.at(from);
-        let b = self.nodes[second as usize].promise.at(from);
+        let from = from.broadcast();
+        let a = self.nodes[node + 1].promise.at(&from);
+        let b = self.nodes[second as usize].promise.at(&from);
         (a + b > 0.0).then(|| a / (a + b))
     }
 
-    /// Chooses a light for `from`. `None` if none reaches it.
+    /// The light of the leaf with this index, or the index of the second child.
     #[inline]
-    pub fn choose(&self, from: &LightSampleContext, mut u: f32) -> Option<LightChoice> {
-        let (mut node, mut probability) = (0, 1.0);
+    fn below(&self, node: u32) -> Below {
+        self.nodes[node as usize].below
+    }
+
+    /// Chooses a light for every receiver that one reaches.
+    #[inline(always)]
+    pub(crate) fn choose<F: Lane>(&self, from: &LaneReceiver<F>, u: F) -> LaneLightChoice<F> {
+        let mut u = u;
+        let mut node = F::Int::splat(0);
+        let mut probability = F::ONE;
+        let mut found = F::Mask::splat(true);
         loop {
-            match self.nodes[node].below {
-                Below::Light(light) => {
-                    return Some(LightChoice {
-                        light,
-                        probability,
-                        rest: u,
-                    });
-                }
-                Below::Two(second) => {
-                    let p = self.first(node, second, from)?;
-                    if u < p {
-                        u /= p;
-                        probability *= p;
-                        node += 1;
-                    } else {
-                        let q = 1.0 - p;
-                        u = (u - p) / q;
-                        probability *= q;
-                        node = second as usize;
-                    }
-                    u = u.min(ONE_MINUS_EPSILON);
-                }
+            // The root is nobody's child.
+            let second = F::Int::from_fn(|i| match self.below(node.lane(i)) {
+                Below::Two(second) => second,
+                Below::Light(_) => 0,
+            });
+            let inner = found & !second.eq(F::Int::splat(0));
+            if !inner.any() {
+                break;
             }
+            let first = node.wrapping_add(F::Int::splat(1));
+            let [a, b] = [inner.select(first, node), second].map(|child| {
+                LightBounds::<F>::of_lanes(|i| &self.nodes[child.lane(i) as usize].promise).at(from)
+            });
+            let sum = a + b;
+            found = found & (sum.gt(F::ZERO) | !inner);
+            let p = a / sum;
+            let is_first = u.lt(p);
+            let q = is_first.select(p, F::ONE - p);
+            let rest = is_first.select(u, u - p) / q;
+            u = inner.select(rest.min(F::splat(ONE_MINUS_EPSILON)), u);
+            probability = inner.select(probability * q, probability);
+            node = inner.select(is_first.select(first, second), node);
+        }
+        LaneLightChoice {
+            found,
+            light: F::Int::from_fn(|i| match self.below(node.lane(i)) {
+                Below::Light(light) => light.0,
+                Below::Two(_) => 0,
+            }),
+            probability,
+            rest: u,
         }
     }
 

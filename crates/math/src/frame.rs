@@ -4,6 +4,7 @@
 //! Construction from one vector follows Duff, Burgess, Christensen, Hery, Kensler, Liani and
 //! Villemin (2017), "Building an Orthonormal Basis, Revisited", JCGT 6(1), eq. 2.
 
+use crate::lane::LaneFrame;
 use glam::Vec3;
 
 /// An orthonormal frame, right-handed (`s` × `t` = `n`) unless it is [`Frame::mirrored`].
@@ -28,14 +29,8 @@ impl Frame {
     /// Any frame with unit normal `n`.
     #[inline]
     pub fn from_normal(n: Vec3) -> Self {
-        let sign = 1.0_f32.copysign(n.z);
-        let a = -1.0 / (sign + n.z);
-        let b = n.x * n.y * a;
-        Self {
-            s: Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x),
-            t: Vec3::new(b, sign + n.y * n.y * a, -n.y),
-            n,
-        }
+        let LaneFrame { s, t, n } = LaneFrame::<f32>::from_normal(n);
+        Self { s, t, n }
     }
 
     /// The frame with unit normal `n` whose first tangent is as near to `tangent` as it can be;

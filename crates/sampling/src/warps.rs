@@ -30,11 +30,11 @@ mod triangle;
 pub use cap::{
     UNIFORM_HEMISPHERE_DENSITY, UNIFORM_SPHERE_DENSITY, square_to_uniform_cone,
     square_to_uniform_hemisphere, square_to_uniform_sphere, uniform_cone_density,
-    uniform_cone_to_square, uniform_hemisphere_to_square, uniform_sphere_to_square,
+    uniform_cone_to_square, uniform_hemisphere_to_square, uniform_sphere, uniform_sphere_to_square,
 };
 pub use disk::{CONCENTRIC_DISK_DENSITY, concentric_disk_to_square, square_to_concentric_disk};
 pub use hemisphere::{
-    cosine_hemisphere, cosine_hemisphere_density, cosine_hemisphere_to_square,
+    cosine_density, cosine_hemisphere, cosine_hemisphere_density, cosine_hemisphere_to_square,
     square_to_cosine_hemisphere,
 };
 pub use line::{

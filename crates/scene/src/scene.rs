@@ -46,7 +46,7 @@ impl Scene {
             shining = MediumLights::find(&space, outermost, lights.total_power());
             rays::take();
         }
-        let in_lanes = !space.has_media && lights.has_lanes(&space.lookup);
+        let in_lanes = !space.has_media;
         let parts = Parts {
             camera,
             in_lanes,

@@ -4,10 +4,11 @@
 //! there are lanes are shaded together. Lane i gets the bits that [`World`](crate::World) gives for the same vertex, so it does
 //! not matter which vertices are shaded together, or whether any are.
 
-use crate::{BsdfSample, LightSampleContext, SamplePdf, SurfaceInteraction};
-use etalon_math::lane::{Lane, Mask, Vector};
+use crate::{BsdfSample, LightSample, LightSampleContext, SamplePdf, SurfaceInteraction};
+use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector, per_lane};
 use etalon_math::{DeltaProbability, Density};
 use etalon_spectrum::Wavelengths;
+use glam::{Vec3, Vec4};
 
 /// A model of scattering that is written for lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -33,6 +34,23 @@ pub struct LaneReceiver<F: Lane> {
 }
 
 impl<F: Lane> LaneReceiver<F> {
+    /// The cosine `cos` with the normal as an importance: at least that of a grazing direction, and zero only if it is below the
+    /// horizon by more than rounding, so that no contributing light is left out.
+    #[inline(always)]
+    pub fn counted(cos: F) -> F {
+        const GRAZING: f32 = 1e-4;
+        let below = cos.lt(F::splat(-GRAZING));
+        below.select(F::ZERO, cos.max(F::splat(GRAZING)))
+    }
+
+    /// [`LaneReceiver::counted`] of light from the unit vector `direction`; 1 where there is no surface.
+    #[inline(always)]
+    pub fn facing(&self, direction: F::Vector) -> F {
+        let cos = self.normal.dot_product(direction);
+        let counted = Self::counted(self.one_sided.select(cos, cos.abs()));
+        self.normal.is_zero().select(F::ONE, counted)
+    }
+
     /// The receiver in lane `index`.
     #[inline]
     pub fn at_lane(&self, index: usize) -> LightSampleContext {
@@ -59,7 +77,7 @@ pub struct LanePoint<F: Lane> {
     pub density: F,
 }
 
-/// Light samples, as [`LightSample`](crate::LightSample) describes them.
+/// Light samples, as [`LightSample`] describes them.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneLightSample<F: Lane> {
     /// The lanes that have one; what others have does not matter.
@@ -76,6 +94,55 @@ pub struct LaneLightSample<F: Lane> {
     pub chance: F,
     /// The lanes where it is a probability.
     pub is_delta: F::Mask,
+}
+
+impl<F: Lane> LaneLightSample<F> {
+    /// `sample(i)` in lane i, of lights that are not media.
+    #[inline]
+    pub fn of_lanes(sample: impl Fn(usize) -> Option<LightSample>) -> Self {
+        let samples = per_lane::<F, _>(sample);
+        let vector = |of: fn(&LightSample) -> Vec3| {
+            F::Vector::of_lanes(|i| samples[i].as_ref().map_or(Vec3::ZERO, of))
+        };
+        let mask = |of: fn(&LightSample) -> bool| {
+            F::Mask::from_fn(|i| samples[i].as_ref().is_some_and(of))
+        };
+        Self {
+            found: mask(|_| true),
+            direction: vector(|sample| sample.direction),
+            target: vector(|sample| sample.target.unwrap_or(Vec3::ZERO)),
+            has_target: mask(|sample| sample.target.is_some()),
+            radiance: F::Spectrum::of_lanes(|i| {
+                samples[i]
+                    .as_ref()
+                    .map_or(Vec4::ZERO, |sample| sample.radiance)
+            }),
+            // Of such lights it is the same for all wavelengths.
+            chance: F::from_fn(|i| {
+                samples[i]
+                    .as_ref()
+                    .map_or(0.0, |sample| sample.chance.lanes().x)
+            }),
+            is_delta: mask(|sample| sample.chance.is_delta()),
+        }
+    }
+
+    /// `yes` in the lanes where `mask` says yes, `no` in the others.
+    #[inline(always)]
+    #[must_use]
+    pub fn choose(mask: F::Mask, yes: Self, no: Self) -> Self {
+        let vector = |yes, no| F::Vector::choose(mask, yes, no);
+        let masks = |yes: F::Mask, no: F::Mask| (yes & mask) | (no & !mask);
+        Self {
+            found: masks(yes.found, no.found),
+            direction: vector(yes.direction, no.direction),
+            target: vector(yes.target, no.target),
+            has_target: masks(yes.has_target, no.has_target),
+            radiance: F::Spectrum::choose(mask, yes.radiance, no.radiance),
+            chance: mask.select(yes.chance, no.chance),
+            is_delta: masks(yes.is_delta, no.is_delta),
+        }
+    }
 }
 
 /// Directions sampled from scattering models, as [`BsdfSample`] describes them.
@@ -152,11 +219,12 @@ pub trait LaneShading: Sync {
         wo: F::Vector,
     ) -> Self::Bsdf<F>;
 
-    /// Light samples, as by [`World::sample_light`](crate::World::sample_light).
+    /// Light samples, as by [`World::sample_light`](crate::World::sample_light), in the lanes where they are `wanted` at least.
     fn sample_light<F: Lane>(
         &self,
         from: &LaneReceiver<F>,
         wavelengths: &[Wavelengths],
+        wanted: F::Mask,
         u_light: F,
         u: [F; 2],
     ) -> LaneLightSample<F>;
@@ -199,6 +267,7 @@ impl LaneShading for NoLanes {
         &self,
         _: &LaneReceiver<F>,
         _: &[Wavelengths],
+        _: F::Mask,
         _: F,
         _: [F; 2],
     ) -> LaneLightSample<F> {

@@ -1,6 +1,7 @@
 //! The point that light is sampled for.
 
-use crate::{Bsdf, SurfaceInteraction};
+use crate::{Bsdf, LaneReceiver, SurfaceInteraction};
+use etalon_math::lane::{Lane, Mask, Vector};
 use glam::Vec3;
 
 /// The receiver for which a light and a direction toward it are chosen. Densities of light sampling depend
@@ -60,26 +61,14 @@ impl LightSampleContext {
         Self { time, ..self }
     }
 
-    /// The cosine `cos` with the normal as an importance: at least that of a grazing direction, and zero only
-    /// if it is below the horizon by more than rounding, so that no contributing light is left out.
-    #[inline]
-    pub fn counted(cos: f32) -> f32 {
-        const GRAZING: f32 = 1e-4;
-        if cos < -GRAZING {
-            0.0
-        } else {
-            cos.max(GRAZING)
-        }
-    }
-
-    /// [`LightSampleContext::counted`] of light from the unit vector `direction`; 1 where there is no surface.
-    #[inline]
-    pub fn facing(&self, direction: Vec3) -> f32 {
-        let cos = self.normal.dot(direction);
-        match self.one_sided {
-            _ if self.normal == Vec3::ZERO => 1.0,
-            true => Self::counted(cos),
-            false => Self::counted(cos.abs()),
+    /// The same in every lane; there, light sampling is always combined with BSDF sampling.
+    #[inline(always)]
+    pub fn broadcast<F: Lane>(&self) -> LaneReceiver<F> {
+        LaneReceiver {
+            position: F::Vector::broadcast(self.position),
+            normal: F::Vector::broadcast(self.normal),
+            one_sided: F::Mask::splat(self.one_sided),
+            time: F::splat(self.time),
         }
     }
 

@@ -11,13 +11,14 @@
 use crate::local_interaction::LocalInteraction;
 use crate::placement::{Placement, perpendicular};
 use crate::shapes::analytic::crossing::{Crossing, Line};
-use crate::shapes::shape_model::{ShapeModel, read_flip};
-
+use crate::shapes::shape_model::{ShapeModel, area_density_toward, read_flip};
+use core::f32::consts::FRAC_1_PI;
 use core::f64::consts::{PI, TAU};
-use etalon_math::float64;
+use etalon_math::lane::{self, Lane, Mask, Select, Vector, per_lane};
+use etalon_math::{float64, gamma};
 use etalon_params::Params;
 use etalon_sampling::warps::{SphereCone, square_to_uniform_sphere};
-use etalon_transport::{LightSampleContext, SampledPoint, SurfacePoint};
+use etalon_transport::{LanePoint, LaneReceiver, LightSampleContext, SampledPoint, SurfacePoint};
 use glam::{DMat3, DVec2, DVec3, Vec2, Vec3};
 
 /// A sphere.
@@ -32,7 +33,7 @@ pub struct Sphere {
 
 /// How far rounding moves a point of a sphere off it, relative to its coordinates: a few roundings
 /// of single precision.
-const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
+const ROUNDING: f32 = 4.0 * f32::EPSILON;
 
 impl Sphere {
     /// The image under `placement` of the sphere around `center` with radius `radius` ≠ 0 (m). As
@@ -82,13 +83,9 @@ impl Sphere {
         } else {
             (1.0, 0.0)
         };
-        let phi = float64::atan2(sin_phi, cos_phi);
-        let u = if phi < 0.0 {
-            phi / TAU + 1.0
-        } else {
-            phi / TAU
-        };
-        let v = float64::atan2(sin, z) / PI;
+        let phi = lane::atan2(sin_phi as f32, cos_phi as f32);
+        let u = 0.5 * FRAC_1_PI * phi + if phi < 0.0 { 1.0 } else { 0.0 };
+        let v = lane::atan2(sin as f32, z as f32) * FRAC_1_PI;
         // At the poles ∂p/∂u vanishes: the tangent of the meridian's neighbour is given length 0
         // by the formula and direction by its limit, so that a frame can still be built.
         let dp_du = DVec3::new(-sin_phi, cos_phi, 0.0) * (TAU * sin.max(1e-12));
@@ -96,27 +93,64 @@ impl Sphere {
         LocalInteraction::exact(
             self.center + normal * self.radius,
             normal,
-            glam::DVec2::new(u, v).as_vec2(),
+            Vec2::new(u, v),
             self.axes * dp_du * self.radius,
             self.axes * dp_dv * self.radius,
         )
         .flipped_if(self.inward)
     }
 
-    /// The cone in which an observer outside sees the sphere. A point of the sphere itself, which
-    /// rounding puts on either side, sees it from inside if at all.
-    fn cone(&self, from: Vec3) -> Option<SphereCone> {
-        let center = self.center - from.as_dvec3();
-        let rounding = ROUNDING * (f64::from(from.abs().max_element()) + self.radius);
-        let outside = center.length() > self.radius + rounding;
-        outside.then(|| SphereCone::new(center, self.radius))?
+    /// The cones in which observers outside see the sphere. A point of the sphere itself, which rounding puts on either side, sees
+    /// it from inside if at all.
+    #[inline(always)]
+    fn cone<F: Lane>(&self, from: F::Vector) -> SphereCone<F> {
+        let center = F::Vector::broadcast(self.center.as_vec3()) - from;
+        let radius = self.radius as f32;
+        let [x, y, z] = from.magnitudes().xyz();
+        let rounding = (x.max(y).max(z) + radius) * ROUNDING;
+        let mut cone = SphereCone::new(center, F::splat(radius));
+        cone.exists = cone.exists & center.norm().gt(rounding + radius);
+        cone
+    }
+
+    /// Points chosen for receivers: by solid angle from outside, by area from inside.
+    #[inline(always)]
+    fn points_toward<F: Lane>(&self, from: &LaneReceiver<F>, u: [F; 2]) -> LanePoint<F> {
+        let cone = self.cone::<F>(from.position);
+        let center = self.center.as_vec3();
+        let radius = self.radius as f32;
+        let outward = cone.sample_normal(u);
+        let mut point = LanePoint {
+            position: F::Vector::broadcast(center) + outward * F::splat(radius),
+            error: F::Vector::broadcast((center.abs() + radius) * gamma(4)),
+            normal: if self.inward { -outward } else { outward },
+            density: cone.density(),
+        };
+        if !cone.exists.all() {
+            let inside = per_lane::<F, _>(|i| {
+                let at = self.sample_area(Vec2::from(u.map(|u| u.lane(i))))?;
+                (!cone.exists.lane(i)).then_some(at)
+            });
+            let vector = |of: fn(&SurfacePoint) -> Vec3| {
+                F::Vector::of_lanes(|i| inside[i].as_ref().map_or(Vec3::ZERO, of))
+            };
+            let choose = |yes, no| F::Vector::choose(cone.exists, yes, no);
+            point.position = choose(point.position, vector(|at| at.position));
+            point.error = choose(point.error, vector(|at| at.error));
+            point.normal = choose(point.normal, vector(|at| at.normal));
+            let area = self.area().unwrap_or(f64::INFINITY);
+            let by_area =
+                area_density_toward::<F>(area, from.position, point.position, point.normal);
+            point.density = cone.exists.select(point.density, by_area);
+        }
+        point
     }
 }
 
 impl ShapeModel for Sphere {
     #[inline]
-    fn next_crossing(&self, _: u32, line: &Line, after: f64, _: f64) -> Option<Crossing> {
-        Crossing::of_convex(self.crossings(line), after)
+    fn both_crossings(&self, line: &Line) -> Option<[f64; 2]> {
+        Some(self.crossings(line))
     }
 
     fn surface_at(&self, _: u32, p: DVec3, _: &Crossing) -> Option<LocalInteraction> {
@@ -148,30 +182,35 @@ impl ShapeModel for Sphere {
         Some(self.surface(normal).whole())
     }
 
-    /// Samples by solid angle from outside, by area from inside.
     fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
-        let Some(cone) = self.cone(from.position) else {
+        let cone = self.cone::<f32>(from.position);
+        if !cone.exists {
             let point = self.sample_area(u)?;
             let density = self.area_density_toward(from.position, &point);
             return Some(SampledPoint { point, density });
-        };
+        }
+        let normal = cone.sample_normal(u.to_array()).as_dvec3().normalize();
         Some(SampledPoint {
-            point: self.surface(cone.sample_normal(u)).whole(),
+            point: self.surface(normal).whole(),
             density: cone.density(),
         })
     }
 
+    #[inline]
+    fn lanes_toward<F: Lane>(&self, from: &LaneReceiver<F>, u: [F; 2]) -> Option<LanePoint<F>> {
+        Some(self.points_toward(from, u))
+    }
+
     fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
-        match self.cone(from.position) {
-            // From outside, only the near side is sampled. The normal identifies it even if the position is
-            // rounded by more than the radius.
-            Some(cone) => {
-                let outward = if self.inward { -at.normal } else { at.normal };
-                let near = outward.dot(from.position - at.position) >= 0.0;
-                if near { cone.density() } else { 0.0 }
-            }
-            None => self.area_density_toward(from.position, at),
+        let cone = self.cone::<f32>(from.position);
+        if !cone.exists {
+            return self.area_density_toward(from.position, at);
         }
+        // From outside, only the near side is sampled. The normal identifies it even if the position is rounded by more than
+        // the radius.
+        let outward = if self.inward { -at.normal } else { at.normal };
+        let near = outward.dot(from.position - at.position) >= 0.0;
+        if near { cone.density() } else { 0.0 }
     }
 }
 

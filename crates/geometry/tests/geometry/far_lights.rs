@@ -5,7 +5,9 @@ use core::f64::consts::PI;
 use etalon_geometry::shapes::{disk::Disk, rectangle::Rectangle, sphere::Sphere};
 use etalon_geometry::{Geometry, Shape};
 use etalon_params::{DMat4, DVec3};
-use etalon_transport::{LightSampleContext, Ray, ShapeId, Shapes, SurfacePoint};
+use etalon_transport::{
+    LightSampleContext, Ray, SampledPoint, ShapeId, Shapes, SurfacePoint, TexturePoint,
+};
 use glam::{Vec2, Vec3};
 
 const ID: ShapeId = ShapeId(0);
@@ -15,14 +17,54 @@ fn receiver(at: Vec3) -> LightSampleContext {
     LightSampleContext::on_surface(at, Vec3::Z)
 }
 
-/// Irradiance at `at` over the radiance of the shape, from sampled points that face it.
+/// Irradiance at `at` over the radiance of the shape, from sampled points that face it: chosen one by one, and as in lanes if the
+/// shape has them.
 fn irradiance(geometry: &Geometry, at: Vec3) -> f64 {
-    const SIDE: usize = 64;
     let from = receiver(at);
+    let alone = |u| {
+        let sampled = geometry.sample_toward(ID, &from, u)?;
+        let density = geometry.density_toward(ID, &from, &sampled.point);
+        let faces = sampled.point.normal.dot(sampled.point.position - at) < 0.0;
+        assert!(
+            !faces || (density / sampled.density - 1.0).abs() < 1e-3,
+            "{density} {}",
+            sampled.density
+        );
+        Some(sampled)
+    };
+    let one = mean_irradiance(geometry, at, alone);
+    let lane = |u: Vec2| {
+        let point = geometry.lanes_toward::<f32>(ID, &from.broadcast(), u.to_array())?;
+        Some(SampledPoint {
+            point: SurfacePoint {
+                position: point.position,
+                error: point.error,
+                normal: point.normal,
+                texture: TexturePoint::at_uv(u),
+            },
+            density: point.density,
+        })
+    };
+    if lane(Vec2::splat(0.5)).is_some() {
+        let lanes = mean_irradiance(geometry, at, lane);
+        assert!(
+            (lanes / one - 1.0).abs() < 1e-3,
+            "{lanes} in lanes, {one} one by one"
+        );
+    }
+    one
+}
+
+fn mean_irradiance(
+    geometry: &Geometry,
+    at: Vec3,
+    sample: impl Fn(Vec2) -> Option<SampledPoint>,
+) -> f64 {
+    const SIDE: usize = 64;
     let mut sum = 0.0;
     for i in 0..SIDE * SIDE {
         let u = Vec2::new((i % SIDE) as f32 + 0.5, (i / SIDE) as f32 + 0.5) / SIDE as f32;
-        let Some(sampled) = geometry.sample_toward(ID, &from, u) else {
+        let Some(sampled) = sample(u) else {
             continue;
         };
         let point = sampled.point;
@@ -30,12 +72,6 @@ fn irradiance(geometry: &Geometry, at: Vec3) -> f64 {
         if !(point.normal.dot(to) < 0.0) {
             continue;
         }
-        let density = geometry.density_toward(ID, &from, &point);
-        assert!(
-            (density / sampled.density - 1.0).abs() < 1e-3,
-            "{density} {}",
-            sampled.density
-        );
         let target = point.origin_toward(at);
         let shadow = Ray::between(at + Vec3::Z * 1e-6, target, 0.0).expect("apart");
         assert!(!geometry.occluded(&shadow), "hidden by itself: {shadow:?}");

@@ -66,9 +66,9 @@ struct LaneVertex<'a, F: Lane, L: LaneShading> {
 impl<F: Lane, L: LaneShading> LaneVertex<'_, F, L> {
     /// The connection to a light sample.
     #[inline(always)]
-    fn connect(&self, u_light: F, u: [F; 2]) -> LaneConnection<F> {
+    fn connect(&self, wanted: F::Mask, u_light: F, u: [F; 2]) -> LaneConnection<F> {
         let waves = self.vertices.wavelengths;
-        let light = self.lanes.sample_light(&self.from, waves, u_light, u);
+        let light = (self.lanes).sample_light(&self.from, waves, wanted, u_light, u);
         let (value, density) = self.bsdf.eval_and_density(self.wo, light.direction);
         let contribution = value * light.radiance;
         LaneConnection {
@@ -106,14 +106,16 @@ impl<F: Lane, L: LaneShading> LaneVertex<'_, F, L> {
             let choice = ((shift + i) / counts).min(below_one);
             let [u, v] = [events.light[0] + TURN.x * i, events.light[1] + TURN.y * i]
                 .map(|u| (u - u.floor()).min(below_one));
+            let wanted = F::splat(i).lt(counts) & !ended;
             let candidate = self.connect(
+                wanted,
                 one.select(events.light_choice, choice),
                 [
                     one.select(events.light[0], u),
                     one.select(events.light[1], v),
                 ],
             );
-            let active = F::splat(i).lt(counts) & !ended & candidate.found;
+            let active = wanted & candidate.found;
             let expected = candidate.path.unoccluded().sum();
             let infinite = !expected.abs().lt(F::splat(f32::INFINITY));
             let counted = active & !infinite & expected.gt(F::ZERO);
@@ -268,7 +270,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
                     let counts = F::from_fn(|i| counts[i] as f32);
                     at.resample(&random, F::load(&shifts), counts, most)
                 }
-                _ => at.connect(random.light_choice, random.light),
+                _ => at.connect(F::Mask::splat(true), random.light_choice, random.light),
             };
             for i in (0..F::WIDTH).filter(|i| connection.found.lane(*i)) {
                 let Arrived { path, vertex, .. } = arrived(i);

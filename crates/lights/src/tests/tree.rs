@@ -111,8 +111,8 @@ proptest! {
             power: 1.0,
         };
         let from = LightSampleContext::on_surface(from, normal);
-        let whole = LightBounds::new(&extent(a).union(extent(b))).at(&from);
-        let parts = [a, b].map(|p| LightBounds::new(&extent(p)).at(&from));
+        let whole = LightBounds::new(&extent(a).union(extent(b))).at(&from.broadcast());
+        let parts = [a, b].map(|p| LightBounds::new(&extent(p)).at(&from.broadcast()));
         prop_assert!(whole > 0.0 || parts == [0.0; 2], "{whole} of {parts:?}");
     }
 }

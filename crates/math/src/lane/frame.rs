@@ -24,6 +24,20 @@ impl<F: Lane> LaneFrame<F> {
         }
     }
 
+    /// Any frames with these unit normals (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+    #[inline(always)]
+    pub fn from_normal(n: F::Vector) -> Self {
+        let [x, y, z] = n.xyz();
+        let sign = F::ONE.copysign(z);
+        let a = -F::ONE / (sign + z);
+        let b = x * y * a;
+        Self {
+            s: F::Vector::from_xyz(sign * x * x * a + F::ONE, sign * b, -sign * x),
+            t: F::Vector::from_xyz(b, sign + y * y * a, -y),
+            n,
+        }
+    }
+
     /// Components of the world vector `v` in this frame.
     #[inline(always)]
     pub fn to_local(&self, v: F::Vector) -> F::Vector {

@@ -13,6 +13,7 @@
 
 use super::disk::{polar_to_square, square_to_polar};
 use core::f32::consts::{FRAC_1_PI, TAU};
+use etalon_math::lane::{Lane, Vector};
 use glam::{Vec2, Vec3};
 
 /// The density of [`square_to_uniform_hemisphere`] per steradian, above the horizon: 1/(2π).
@@ -25,12 +26,17 @@ pub const UNIFORM_SPHERE_DENSITY: f32 = 0.25 * FRAC_1_PI;
 /// 1 − cos θ ≤ `one_minus_cos_max` ∈ (0, 2].
 #[inline]
 pub fn square_to_uniform_cone(u: Vec2, one_minus_cos_max: f32) -> Vec3 {
-    let (radius, point) = square_to_polar(u.to_array());
-    let point = Vec2::from(point);
+    uniform_cone::<f32>(u.to_array(), one_minus_cos_max)
+}
+
+/// The same in lanes.
+#[inline(always)]
+fn uniform_cone<F: Lane>(u: [F; 2], one_minus_cos_max: F) -> F::Vector {
+    let (radius, [x, y]) = square_to_polar(u);
     let one_minus_cos = radius * radius * one_minus_cos_max;
     // sin θ / r, since sin² θ = (1 − cos θ)(1 + cos θ).
-    let scale = (one_minus_cos_max * (2.0 - one_minus_cos)).sqrt();
-    (point * scale).extend(1.0 - one_minus_cos)
+    let scale = (one_minus_cos_max * (F::splat(2.0) - one_minus_cos)).sqrt();
+    F::Vector::from_xyz(x * scale, y * scale, F::ONE - one_minus_cos)
 }
 
 /// The inverse of [`square_to_uniform_cone`], for a unit direction inside the cone.
@@ -68,7 +74,13 @@ pub fn uniform_hemisphere_to_square(direction: Vec3) -> Vec2 {
 /// A unit direction, uniform over the sphere. The centre of the square becomes +z, its border −z.
 #[inline]
 pub fn square_to_uniform_sphere(u: Vec2) -> Vec3 {
-    square_to_uniform_cone(u, 2.0)
+    uniform_sphere::<f32>(u.to_array())
+}
+
+/// The same in lanes.
+#[inline(always)]
+pub fn uniform_sphere<F: Lane>(u: [F; 2]) -> F::Vector {
+    uniform_cone(u, F::splat(2.0))
 }
 
 /// The inverse of [`square_to_uniform_sphere`].

@@ -37,5 +37,11 @@ pub fn cosine_hemisphere_to_square(direction: Vec3) -> Vec2 {
 /// cosine; zero below the horizon.
 #[inline]
 pub fn cosine_hemisphere_density(cos_theta: f32) -> f32 {
-    cos_theta.max(0.0) * FRAC_1_PI
+    cosine_density(cos_theta)
+}
+
+/// The same in lanes.
+#[inline(always)]
+pub fn cosine_density<F: Lane>(cos_theta: F) -> F {
+    cos_theta.max(F::ZERO) * FRAC_1_PI
 }

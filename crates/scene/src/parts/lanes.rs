@@ -32,10 +32,11 @@ impl LaneShading for Parts {
         &self,
         from: &LaneReceiver<F>,
         wavelengths: &[Wavelengths],
-        _: F,
+        wanted: F::Mask,
+        u_light: F,
         u: [F; 2],
     ) -> LaneLightSample<F> {
-        let sample = (self.lights).sample_lanes(&self.space.lookup, from, wavelengths, u);
-        sample.expect("lights that have lanes")
+        let scene = &self.space.lookup;
+        (self.lights).sample_lanes(scene, (from, wavelengths), wanted, u_light, u)
     }
 }
