@@ -32,6 +32,7 @@
 
 pub mod agreement;
 mod arc;
+mod erf;
 mod exp;
 mod frame;
 mod int;
@@ -46,12 +47,13 @@ mod trigonometric;
 mod vector3;
 
 pub use arc::{acos, asin, atan, atan2};
+pub use erf::erf;
 pub use exp::exp;
 pub use frame::LaneFrame;
 pub use int::Int;
 pub use kernel::{Kernel, apply};
 pub use ln::ln;
-pub use mask::{Mask, Select};
+pub use mask::{Mask, Select, branch};
 pub use pow::pow;
 pub use simd_vector::{F32x8, F32x16, Mask8, Mask16, U32x8, U32x16};
 pub use spectrum::{Spectral, Spectrum};
@@ -94,7 +96,11 @@ pub trait Lane:
     /// 1 in every lane.
     const ONE: Self;
     /// What a comparison returns.
-    type Mask: Mask + Select<Self> + Select<Self::Int>;
+    type Mask: Mask
+        + Select<Self>
+        + Select<Self::Int>
+        + Select<Self::Vector>
+        + Select<Self::Spectrum>;
     /// As many 32-bit integers.
     type Int: Int<Mask = Self::Mask>;
     /// As many points or directions.

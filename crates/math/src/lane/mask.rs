@@ -34,3 +34,33 @@ pub trait Select<T> {
     /// `yes` in the lanes that say yes, `no` in the others.
     fn select(self, yes: T, no: T) -> T;
 }
+
+impl<M: Mask + Select<A> + Select<B>, A, B> Select<(A, B)> for M {
+    #[inline(always)]
+    fn select(self, yes: (A, B), no: (A, B)) -> (A, B) {
+        (self.select(yes.0, no.0), self.select(yes.1, no.1))
+    }
+}
+
+impl<M: Mask + Select<T>, T> Select<[T; 2]> for M {
+    #[inline(always)]
+    fn select(self, [a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
+        [self.select(a, c), self.select(b, d)]
+    }
+}
+
+/// `yes()` in the lanes where `mask` says yes, `no()` in the others; a side that no lane takes is not evaluated.
+#[inline(always)]
+pub fn branch<M: Mask + Select<T>, T>(
+    mask: M,
+    yes: impl FnOnce() -> T,
+    no: impl FnOnce() -> T,
+) -> T {
+    let yes = mask.any().then(yes);
+    let no = (!mask.all()).then(no);
+    match (yes, no) {
+        (Some(yes), Some(no)) => mask.select(yes, no),
+        (Some(only), None) | (None, Some(only)) => only,
+        (None, None) => unreachable!("a lane says yes or no"),
+    }
+}

@@ -157,16 +157,15 @@ impl Mask for bool {
     }
 }
 
-impl Select<f32> for bool {
-    #[inline(always)]
-    fn select(self, yes: f32, no: f32) -> f32 {
-        if self { yes } else { no }
-    }
+macro_rules! select {
+    ($($value:ty),*) => {
+        $(impl Select<$value> for bool {
+            #[inline(always)]
+            fn select(self, yes: $value, no: $value) -> $value {
+                if self { yes } else { no }
+            }
+        })*
+    };
 }
 
-impl Select<u32> for bool {
-    #[inline(always)]
-    fn select(self, yes: u32, no: u32) -> u32 {
-        if self { yes } else { no }
-    }
-}
+select!(f32, u32, glam::Vec3, glam::Vec4);

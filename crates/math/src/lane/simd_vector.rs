@@ -1,6 +1,6 @@
 //! Eight and sixteen lanes, on the crate `wide`: sixteen are two registers of eight at x86-64-v3.
 
-use super::{Int, Lane, Mask, Select, Spectrum, Vector3};
+use super::{Int, Lane, Mask, Select, Spectral, Spectrum, Vector, Vector3};
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Shl, Shr, Sub};
 
 /// Whether `wide` fuses its multiply-add: where it does not, the rounding would differ from `f32`'s.
@@ -270,6 +270,18 @@ macro_rules! simd_vector {
             #[inline(always)]
             fn select(self, yes: $int, no: $int) -> $int {
                 $int(self.0.select(yes.0, no.0))
+            }
+        }
+        impl Select<Vector3<$float>> for $mask {
+            #[inline(always)]
+            fn select(self, yes: Vector3<$float>, no: Vector3<$float>) -> Vector3<$float> {
+                Vector::choose(self, yes, no)
+            }
+        }
+        impl Select<Spectrum<$float>> for $mask {
+            #[inline(always)]
+            fn select(self, yes: Spectrum<$float>, no: Spectrum<$float>) -> Spectrum<$float> {
+                Spectral::choose(self, yes, no)
             }
         }
     };

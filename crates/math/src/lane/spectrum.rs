@@ -15,6 +15,8 @@ pub trait Spectral<F: Lane>:
     + Sub<Output = Self>
     + Mul<Output = Self>
     + Div<Output = Self>
+    + Add<F, Output = Self>
+    + Sub<F, Output = Self>
     + Mul<F, Output = Self>
     + Div<F, Output = Self>
 {
@@ -73,15 +75,30 @@ pub trait Spectral<F: Lane>:
     /// Each without its sign.
     #[inline(always)]
     fn magnitudes(self) -> Self {
-        let [a, b, c, d] = self.waves();
-        Self::from_waves([a.abs(), b.abs(), c.abs(), d.abs()])
+        self.at_each(F::abs)
     }
 
-    /// Each, or `least` if that is greater.
+    /// Each, or `least` if that is greater; NaN remains.
+    fn at_least(self, least: F) -> Self;
+
+    /// Each where it is less than `most`; `most` in place of what is not, NaN too.
+    fn below(self, most: F) -> Self;
+
+    /// The square root of each.
+    fn square_roots(self) -> Self;
+
+    /// The result of `function` at each wavelength.
     #[inline(always)]
-    fn at_least(self, least: F) -> Self {
+    fn at_each(self, function: impl Fn(F) -> F) -> Self {
         let [a, b, c, d] = self.waves();
-        Self::from_waves([a.max(least), b.max(least), c.max(least), d.max(least)])
+        Self::from_waves([function(a), function(b), function(c), function(d)])
+    }
+
+    /// Whether it is the same at every wavelength.
+    #[inline(always)]
+    fn is_uniform(self) -> F::Mask {
+        let [a, b, c, d] = self.waves();
+        Lane::eq(a, b) & (Lane::eq(a, c) & Lane::eq(a, d))
     }
 
     /// Whether it is 0 at every wavelength.
@@ -110,6 +127,20 @@ impl Spectral<f32> for glam::Vec4 {
     fn greatest(self) -> f32 {
         self.max_element()
     }
+    #[inline(always)]
+    fn at_least(self, least: f32) -> Self {
+        let least = Self::splat(least);
+        Self::select(least.cmpgt(self), least, self)
+    }
+    #[inline(always)]
+    fn below(self, most: f32) -> Self {
+        let most = Self::splat(most);
+        Self::select(self.cmplt(most), self, most)
+    }
+    #[inline(always)]
+    fn square_roots(self) -> Self {
+        self.sqrt()
+    }
 }
 
 /// A quantity at four wavelengths, in vectors of numbers.
@@ -134,6 +165,18 @@ impl<F: Lane> Spectral<F> for Spectrum<F> {
     fn greatest(self) -> F {
         let [a, b, c, d] = self.0;
         a.max(b).max(c.max(d))
+    }
+    #[inline(always)]
+    fn at_least(self, least: F) -> Self {
+        self.at_each(|value| value.max(least))
+    }
+    #[inline(always)]
+    fn below(self, most: F) -> Self {
+        self.at_each(|value| most.min(value))
+    }
+    #[inline(always)]
+    fn square_roots(self) -> Self {
+        self.at_each(F::sqrt)
     }
 }
 

@@ -62,6 +62,12 @@ pub trait Vector<F: Lane>:
         self.dot_product(self).sqrt()
     }
 
+    /// The vector brought to unit length.
+    #[inline(always)]
+    fn normalized(self) -> Self {
+        self * (F::ONE / self.norm())
+    }
+
     /// Every coordinate without its sign.
     #[inline(always)]
     fn magnitudes(self) -> Self {

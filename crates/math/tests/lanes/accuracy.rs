@@ -74,6 +74,15 @@ fn logarithms() {
 }
 
 #[test]
+fn error_function() {
+    assert_within(1.3, worst(numbers(), erf, float64::erf));
+    let near_the_seam = || (0..1 << 20).map(|i| 4.5 * (i as f32 / (1 << 20) as f32));
+    assert_within(1.3, worst(near_the_seam(), erf, float64::erf));
+    assert_eq!([f32::INFINITY, f32::NEG_INFINITY].map(erf), [1.0, -1.0]);
+    assert!(erf(f32::NAN).is_nan());
+}
+
+#[test]
 fn powers() {
     // Exponents that are common, and those that bring the result near the ends of the range.
     let exponents = [

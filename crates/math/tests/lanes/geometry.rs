@@ -1,6 +1,6 @@
 //! Vectors, spectra and frames in lanes have the bits of `glam`'s and of [`etalon_math::Frame`].
 
-use etalon_math::lane::{F32x8, F32x16, Lane, LaneFrame, Mask, Spectral, Vector};
+use etalon_math::lane::{F32x8, F32x16, Lane, LaneFrame, Mask, Select, Spectral, Vector};
 use etalon_math::offset::offset_origins;
 use etalon_math::{Frame, offset_origin};
 use glam::{Vec3, Vec4};
@@ -50,6 +50,7 @@ fn vectors_agree<F: Lane>(v: &[Vec3], s: &[Vec4]) {
         vector(-a, -x);
         vector(a * b.z(), x * y.z);
         vector(a.over(b.norm()), x / y.length());
+        vector(a.normalized(), x * (1.0 / x.length()));
         vector(a.magnitudes(), x.abs());
         value(a.dot_product(b), x.dot(y));
         value(a.norm(), x.length());
@@ -58,6 +59,7 @@ fn vectors_agree<F: Lane>(v: &[Vec3], s: &[Vec4]) {
             F::Vector::choose(a.z().lt(b.z()), a, b),
             if x.z < y.z { x } else { y },
         );
+        vector(a.z().lt(b.z()).select(a, b), if x.z < y.z { x } else { y });
         let alone = Frame::from_normal(x.normalize_or(Vec3::Z));
         vector(frame.to_local(b), alone.to_local(y));
         vector(frame.to_world(b), alone.to_world(y));
@@ -83,7 +85,24 @@ fn vectors_agree<F: Lane>(v: &[Vec3], s: &[Vec4]) {
         spectrum(p / q, x / y);
         spectrum(p * q.hero(), x * y.x);
         spectrum(p / q.hero(), x / y.x);
+        spectrum(p + q.hero(), x + y.x);
+        spectrum(p - q.hero(), x - y.x);
         spectrum(p.magnitudes(), x.abs());
+        spectrum(p.square_roots(), x.sqrt());
+        let each = |f: fn(f32) -> f32| Vec4::from_array(x.to_array().map(f));
+        spectrum(
+            p.at_least(F::splat(0.1)),
+            each(|x| if x < 0.1 { 0.1 } else { x }),
+        );
+        spectrum(
+            p.below(F::splat(0.1)),
+            each(|x| if x < 0.1 { x } else { 0.1 }),
+        );
+        assert_eq!(p.is_uniform().lane(i), x == Vec4::splat(x.x));
+        let uniform = F::Spectrum::uniform(p.hero()).is_uniform().lane(i);
+        assert_eq!(uniform, !x.x.is_nan());
+        let less = p.hero().lt(q.hero());
+        spectrum(less.select(p, q), if x.x < y.x { x } else { y });
         value(p.sum(), x.element_sum());
         value(p.greatest() + 0.0, x.max_element() + 0.0);
         assert_eq!(p.is_zero().lane(i), x == Vec4::ZERO);

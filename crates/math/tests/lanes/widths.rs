@@ -45,7 +45,8 @@ kernel!(Arithmetic: [a, b, c] => [
 kernel!(Comparison: [a, b, c] => [
     flag(a.eq(b)), flag(a.lt(b)), flag(a.le(b)), flag(a.gt(b)), flag(a.ge(b)),
     flag(a.lt(b) & b.lt(c)), flag(a.lt(b) | b.lt(c)), flag(a.lt(b) ^ b.lt(c)), flag(!a.lt(b)),
-    a.lt(b).select(b, c), F::from_bits(a.lt(b).select(b.to_bits(), c.to_bits())),
+    a.lt(b).select(b, c), branch(a.lt(b), || b, || c), a.lt(b).select((b, a), (c, b)).1,
+    a.lt(b).select([b, a], [c, b])[1], F::from_bits(a.lt(b).select(b.to_bits(), c.to_bits())),
     flag(F::Mask::splat(true)), flag(F::Mask::from_fn(|i| i > 64)),
 ]);
 kernel!(Integers: [a, b] => [
@@ -62,7 +63,7 @@ kernel!(Integers: [a, b] => [
     low(F::Int::splat(7)), low(F::Int::from_fn(|_| 9)),
 ]);
 kernel!(Functions: [a, b] => [
-    exp(a), ln(a), pow(a, b), pow(a.abs(), b), atan(a), atan2(a, b), asin(a), acos(a),
+    exp(a), ln(a), erf(a), pow(a, b), pow(a.abs(), b), atan(a), atan2(a, b), asin(a), acos(a),
     sin_cos(a).0, sin_cos(a).1, sin_cos_turns(a).0, sin_cos_turns(a).1,
 ]);
 
