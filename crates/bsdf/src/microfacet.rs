@@ -14,8 +14,8 @@ pub mod ggx;
 pub mod roughness;
 
 use core::f32::consts::FRAC_1_PI;
-use etalon_math::float;
-use glam::{Vec2, Vec3};
+use etalon_math::lane::{Lane, Mask, Select, Vector, branch, exp};
+use glam::Vec2;
 
 /// The shape of a distribution of slopes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,126 +30,155 @@ pub enum Kind {
 pub const LEAST_ALPHA: f32 = 1e-4;
 
 /// A distribution of microfacet normals about +z. All normals have z > 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Microfacet {
-    /// The shape.
-    pub kind: Kind,
+#[derive(Clone, Copy, Debug)]
+pub struct Microfacet<F: Lane = f32> {
+    /// Whether the shape is [`Kind::Ggx`], not [`Kind::Beckmann`].
+    pub is_ggx: F::Mask,
     /// Roughness along x and y, at least [`LEAST_ALPHA`].
-    pub alpha: Vec2,
+    pub alpha: [F; 2],
     /// Whether normals are sampled as they are seen from `wo` or, as older renderers do, as
     /// they are on the surface.
-    pub sample_visible: bool,
+    pub sample_visible: F::Mask,
 }
 
 impl Microfacet {
     /// A distribution; a roughness below [`LEAST_ALPHA`] (as textures may have) is raised to it.
     #[inline]
     pub fn new(kind: Kind, alpha: Vec2, sample_visible: bool) -> Self {
+        Self::in_lanes(|_| kind, alpha.to_array(), |_| sample_visible)
+    }
+}
+
+impl<F: Lane> Microfacet<F> {
+    /// Several distributions, as by [`Microfacet::new`].
+    #[inline(always)]
+    pub fn in_lanes(
+        kind: impl Fn(usize) -> Kind,
+        alpha: [F; 2],
+        sample_visible: impl Fn(usize) -> bool,
+    ) -> Self {
+        let least = F::splat(LEAST_ALPHA);
         Self {
-            kind,
-            alpha: alpha.max(Vec2::splat(LEAST_ALPHA)),
-            sample_visible,
+            is_ggx: F::Mask::from_fn(|i| kind(i) == Kind::Ggx),
+            alpha: [alpha[0].max(least), alpha[1].max(least)],
+            sample_visible: F::Mask::from_fn(sample_visible),
         }
     }
 
-    /// The same distribution, rougher by `factor`.
-    #[inline]
-    pub fn scaled(&self, factor: f32) -> Self {
-        Self::new(self.kind, self.alpha * factor, self.sample_visible)
+    /// The same distributions in lanes.
+    #[inline(always)]
+    pub fn of_lanes<'m>(at: impl Fn(usize) -> &'m Microfacet) -> Self {
+        Self {
+            is_ggx: F::Mask::from_fn(|i| at(i).is_ggx),
+            alpha: [0, 1].map(|axis| F::from_fn(|i| at(i).alpha[axis])),
+            sample_visible: F::Mask::from_fn(|i| at(i).sample_visible),
+        }
+    }
+
+    /// The same distribution, rougher by `factor`, which is 1 or more.
+    #[inline(always)]
+    pub fn scaled(&self, factor: F) -> Self {
+        let [x, y] = self.alpha;
+        Self {
+            alpha: [x * factor, y * factor],
+            ..*self
+        }
     }
 
     /// D(m): density of microfacet area by normal (sr⁻¹ per unit of surface area).
-    #[inline]
-    pub fn d(&self, m: Vec3) -> f32 {
-        let slopes = m.truncate() / self.alpha;
-        let (s2, c2) = (slopes.length_squared(), m.z * m.z);
-        let area = self.alpha.x * self.alpha.y;
-        let d = match self.kind {
-            Kind::Beckmann => FRAC_1_PI * float::exp(-s2 / c2) / (area * c2 * c2),
-            Kind::Ggx => {
+    #[inline(always)]
+    pub fn d(&self, m: F::Vector) -> F {
+        let ([x, y, cos], [alpha_x, alpha_y]) = (m.xyz(), self.alpha);
+        let (x, y) = (x / alpha_x, y / alpha_y);
+        let (s2, c2) = (x * x + y * y, cos * cos);
+        let area = alpha_x * alpha_y;
+        let d = branch(
+            self.is_ggx,
+            || {
                 let root = s2 + c2;
-                FRAC_1_PI / (area * root * root)
-            }
-        };
+                F::splat(FRAC_1_PI) / (area * root * root)
+            },
+            || exp(-s2 / c2) * FRAC_1_PI / (area * c2 * c2),
+        );
         // Normals in the horizon are none, and a value too small to matter is a danger in ratios.
-        if d * m.z > 1e-20 { d } else { 0.0 }
+        (d * cos).gt(F::splat(1e-20)).select(d, F::ZERO)
     }
 
     /// α² tan² θ of a direction, with the roughness seen along its azimuth.
-    #[inline]
-    fn projected_roughness2(&self, v: Vec3) -> f32 {
-        (v.truncate() * self.alpha).length_squared() / (v.z * v.z)
+    #[inline(always)]
+    fn projected_roughness2(&self, v: F::Vector) -> F {
+        let ([x, y, cos], [alpha_x, alpha_y]) = (v.xyz(), self.alpha);
+        let (x, y) = (x * alpha_x, y * alpha_y);
+        (x * x + y * y) / (cos * cos)
     }
 
     /// G1(v, m), the share of microfacets with normal `m` that are visible from `v`: zero from
     /// behind. For Beckmann the rational approximation of Walter et al. (2007, eq. 27), within
     /// 0.35 % of the exact function, which is what Mitsuba and most renderers have.
-    #[inline]
-    pub fn g1(&self, v: Vec3, m: Vec3) -> f32 {
-        if !(v.dot(m) * v.z > 0.0) {
-            return 0.0;
-        }
+    #[inline(always)]
+    pub fn g1(&self, v: F::Vector, m: F::Vector) -> F {
         let t2 = self.projected_roughness2(v);
-        match self.kind {
-            Kind::Beckmann => beckmann::g1_rational(t2),
-            Kind::Ggx => ggx::g1(t2),
-        }
+        let share = branch(self.is_ggx, || ggx::g1(t2), || beckmann::g1_rational(t2));
+        let in_front = (v.dot_product(m) * v.z()).gt(F::ZERO);
+        in_front.select(share, F::ZERO)
     }
 
     /// The same, exactly as the visible normals are distributed.
-    #[inline]
-    fn g1_exact(&self, v: Vec3) -> f32 {
+    #[inline(always)]
+    fn g1_exact(&self, v: F::Vector) -> F {
         let t2 = self.projected_roughness2(v);
-        match self.kind {
-            Kind::Beckmann => beckmann::g1_exact(t2),
-            Kind::Ggx => ggx::g1(t2),
-        }
+        branch(self.is_ggx, || ggx::g1(t2), || beckmann::g1_exact(t2))
     }
 
     /// Per steradian, the density with which [`Microfacet::sample`] finds the normal `m` for
     /// `wo` with z > 0, when D(m) is `d`.
-    #[inline]
-    pub fn density(&self, wo: Vec3, m: Vec3, d: f32) -> f32 {
-        if self.sample_visible {
-            let cos = wo.dot(m);
-            if cos > 0.0 && d > 0.0 {
-                self.g1_exact(wo) * cos * d / wo.z
-            } else {
-                0.0
-            }
-        } else {
-            d * m.z
-        }
+    #[inline(always)]
+    pub fn density(&self, wo: F::Vector, m: F::Vector, d: F) -> F {
+        let visible = || {
+            let cos = wo.dot_product(m);
+            let density = self.g1_exact(wo) * cos * d / wo.z();
+            (cos.gt(F::ZERO) & d.gt(F::ZERO)).select(density, F::ZERO)
+        };
+        branch(self.sample_visible, visible, || d * m.z())
     }
 
     /// A normal for `wo` with z > 0.
-    #[inline]
-    pub fn sample(&self, wo: Vec3, u: Vec2) -> Vec3 {
-        if !self.sample_visible {
-            let slopes = match self.kind {
-                Kind::Beckmann => beckmann::sample_slopes(u),
-                Kind::Ggx => ggx::sample_slopes(u),
-            };
-            return normal_of_slopes(slopes * self.alpha);
-        }
-        // Stretched so that the roughness becomes 1 (Heitz & d'Eon 2014, section 3).
-        let stretched = (wo.truncate() * self.alpha).extend(wo.z).normalize();
-        match self.kind {
-            Kind::Beckmann => {
-                normal_of_slopes(beckmann::sample_visible_slopes(stretched, u) * self.alpha)
-            }
-            Kind::Ggx => {
-                let m = ggx::sample_visible_normal(stretched, u);
-                (m.truncate() * self.alpha)
-                    .extend(m.z.max(1e-7))
-                    .normalize()
-            }
-        }
+    #[inline(always)]
+    pub fn sample(&self, wo: F::Vector, u: [F; 2]) -> F::Vector {
+        branch(
+            self.sample_visible,
+            || self.sample_visible_normal(wo, u),
+            || {
+                self.normal_of_slopes(branch(
+                    self.is_ggx,
+                    || ggx::sample_slopes(u),
+                    || beckmann::sample_slopes(u),
+                ))
+            },
+        )
     }
-}
 
-/// The unit normal of the facet z = x·slopes.x + y·slopes.y.
-#[inline]
-fn normal_of_slopes(slopes: Vec2) -> Vec3 {
-    (-slopes).extend(1.0).normalize()
+    /// A normal as it is seen from `wo`: found for the surface stretched so that its roughness is 1 (Heitz & d'Eon 2014,
+    /// section 3).
+    #[inline(always)]
+    fn sample_visible_normal(&self, wo: F::Vector, u: [F; 2]) -> F::Vector {
+        let ([x, y, z], [alpha_x, alpha_y]) = (wo.xyz(), self.alpha);
+        let stretched = F::Vector::from_xyz(x * alpha_x, y * alpha_y, z).normalized();
+        branch(
+            self.is_ggx,
+            || {
+                let [x, y, z] = ggx::sample_visible_normal::<F>(stretched, u).xyz();
+                let z = z.max(F::splat(1e-7));
+                F::Vector::from_xyz(x * alpha_x, y * alpha_y, z).normalized()
+            },
+            || self.normal_of_slopes(beckmann::sample_visible_slopes(stretched, u)),
+        )
+    }
+
+    /// The unit normal of the facet with these slopes, for α = 1.
+    #[inline(always)]
+    fn normal_of_slopes(&self, [x, y]: [F; 2]) -> F::Vector {
+        let [alpha_x, alpha_y] = self.alpha;
+        F::Vector::from_xyz(-(x * alpha_x), -(y * alpha_y), F::ONE).normalized()
+    }
 }

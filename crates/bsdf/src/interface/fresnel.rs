@@ -6,42 +6,41 @@
 
 use crate::quadrature::gauss_legendre;
 pub use etalon_math::fresnel::dielectric;
-use glam::Vec4;
+use etalon_math::lane::{Lane, Mask, Spectral};
 
-/// [`dielectric`] for an index per lane; only the reflectances.
-#[inline]
-pub fn dielectric_lanes(cos: f32, eta: Vec4) -> Vec4 {
-    let reflectance = |eta: f32| dielectric(cos, eta).0;
-    if eta == Vec4::splat(eta.x) {
-        return Vec4::splat(reflectance(eta.x));
+/// [`dielectric`] for an index per wavelength; only the reflectances.
+#[inline(always)]
+pub fn dielectric_spectrum<F: Lane>(cos: F, eta: F::Spectrum) -> F::Spectrum {
+    if eta.is_uniform().all() {
+        return F::Spectrum::uniform(dielectric(cos, eta.hero()).0);
     }
-    Vec4::from_array(eta.to_array().map(reflectance))
+    eta.at_each(|eta| dielectric(cos, eta).0)
 }
 
-/// Reflectance of a conductor with relative complex index η + ik, per lane, for a direction with
-/// cosine `cos` (0 or more). (Born & Wolf 1999, section 14.2; the form without complex numbers
+/// Reflectance of a conductor with relative complex index η + ik, per wavelength, for a direction
+/// with cosine `cos` (0 or more). (Born & Wolf 1999, section 14.2; the form without complex numbers
 /// is that of Siegel & Howell 2001, *Thermal Radiation Heat Transfer*, eq. 3-35 ff.)
-#[inline]
-pub fn conductor(cos: f32, eta: Vec4, k: Vec4) -> Vec4 {
+#[inline(always)]
+pub fn conductor<F: Lane, S: Spectral<F>>(cos: F, eta: S, k: S) -> S {
     let cos2 = cos * cos;
-    let sin2 = 1.0 - cos2;
+    let sin2 = F::ONE - cos2;
     // η² − k² − sin²θ, arranged so that η near 1 keeps its digits at grazing angles.
-    let real = (eta - 1.0) * (eta + 1.0) - k * k + cos2;
-    let a2_b2 = (real * real + 4.0 * eta * eta * k * k).sqrt();
-    let a = (0.5 * (a2_b2 + real)).max(Vec4::ZERO).sqrt();
+    let real = (eta - F::ONE) * (eta + F::ONE) - k * k + cos2;
+    let a2_b2 = (real * real + eta * F::splat(4.0) * eta * k * k).square_roots();
+    let a = (((a2_b2 + real) * F::splat(0.5)).at_least(F::ZERO)).square_roots();
     let sum = a2_b2 + cos2;
-    let cross = 2.0 * cos * a;
+    let cross = a * (cos * 2.0);
     let s = quotient(sum - cross, sum + cross);
     let sum = a2_b2 * cos2 + sin2 * sin2;
     let cross = cross * sin2;
     let p = s * quotient(sum - cross, sum + cross);
-    0.5 * (s + p)
+    (s + p) * F::splat(0.5)
 }
 
-/// a / b, with a clamped to ≥ 0 against rounding; 1 where both vanish (an index-matched lane at grazing incidence).
-#[inline]
-fn quotient(a: Vec4, b: Vec4) -> Vec4 {
-    Vec4::select(b.cmpgt(Vec4::ZERO), a.max(Vec4::ZERO) / b, Vec4::ONE)
+/// a / b, which rounding may bring out of [0, 1]; 1 where both vanish (an index-matched wavelength at grazing incidence).
+#[inline(always)]
+fn quotient<F: Lane, S: Spectral<F>>(a: S, b: S) -> S {
+    (a / b).at_least(F::ZERO).below(F::ONE)
 }
 
 /// The share of diffuse light inside a smooth dielectric that its interface reflects back, for
@@ -85,6 +84,7 @@ fn diffuse_reflectance(eta: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec4;
 
     #[test]
     fn dielectric_matches_known_points() {

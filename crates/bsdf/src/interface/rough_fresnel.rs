@@ -13,7 +13,7 @@ use crate::interface::fresnel;
 use crate::interface::refraction::{reflect, refract};
 use crate::microfacet::Microfacet;
 use crate::quadrature::gauss_legendre;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
 /// Number of cosines at which the transmittance is tabulated, equally spaced over [0, 1].
 pub const COSINES: usize = 64;
@@ -101,7 +101,7 @@ fn visible_normals(microfacet: &Microfacet, w: Vec3, nodes: usize) -> Vec<(Vec3,
     let mut normals = Vec::with_capacity(across.len() * along.len());
     for &(x, weight_x) in &across {
         for &(y, weight_y) in &along {
-            let m = microfacet.sample(w, Vec2::new(x as f32, y as f32));
+            let m = microfacet.sample(w, [x as f32, y as f32]);
             normals.push((m, weight_x * weight_y));
         }
     }
@@ -122,6 +122,7 @@ fn mean(normals: &[(Vec3, f64)], w: Vec3, f: impl Fn(Vec3, f32) -> f32) -> f64 {
 mod tests {
     use super::*;
     use crate::microfacet::Kind;
+    use glam::Vec2;
 
     #[test]
     fn smooth_limit_is_fresnel() {

@@ -1,113 +1,106 @@
 //! The distribution of Beckmann & Spizzichino (1963): Gaussian slopes.
 
 use core::f32::consts::FRAC_2_SQRT_PI;
-use etalon_math::float::{self, erf, exp, ln};
-use glam::{Vec2, Vec3};
+use etalon_math::lane::{Lane, Mask, Select, Vector, branch, erf, exp, ln, sin_cos_turns};
 
 const FRAC_1_SQRT_PI: f32 = 0.5 * FRAC_2_SQRT_PI;
 
 /// G1 for α² tan² θ by the rational approximation of Walter et al. (2007, eq. 27 f.).
-#[inline]
-pub fn g1_rational(roughness2: f32) -> f32 {
-    if roughness2 <= 0.0 {
-        return 1.0;
-    }
-    let a = roughness2.sqrt().recip();
-    if a >= 1.6 {
-        1.0
-    } else {
-        a * (3.535 + 2.181 * a) / (1.0 + a * (2.276 + 2.577 * a))
-    }
+#[inline(always)]
+pub fn g1_rational<F: Lane>(roughness2: F) -> F {
+    let a = F::ONE / roughness2.sqrt();
+    let rational = a * (a * 2.181 + 3.535) / (a * (a * 2.577 + 2.276) + 1.0);
+    a.ge(F::splat(1.6)).select(F::ONE, rational)
 }
 
 /// G1 = 2 / (1 + erf a + exp(−a²)/(a√π)), a = 1/(α tan θ) (ibid., eq. 26).
-#[inline]
-pub fn g1_exact(roughness2: f32) -> f32 {
+#[inline(always)]
+pub fn g1_exact<F: Lane>(roughness2: F) -> F {
     // Above a = 4.5 the difference from 1 is below 10⁻¹⁰.
-    if roughness2 <= 1.0 / (4.5 * 4.5) {
-        return 1.0;
-    }
-    let t = roughness2.sqrt();
-    let a = t.recip();
-    2.0 / (1.0 + erf(a) + exp(-a * a) * t * FRAC_1_SQRT_PI)
+    let nearly_one = roughness2.le(F::splat(1.0 / (4.5 * 4.5)));
+    let exact = || {
+        let t = roughness2.sqrt();
+        let a = F::ONE / t;
+        F::splat(2.0) / (erf(a) + 1.0 + exp(-a * a) * t * FRAC_1_SQRT_PI)
+    };
+    branch(nearly_one, || F::ONE, exact)
 }
 
 /// Slopes for α = 1 as they are on the surface: tan² θ = −ln(1 − u) (ibid., eq. 28).
-#[inline]
-pub fn sample_slopes(u: Vec2) -> Vec2 {
-    let radius = float::safe_sqrt(-ln(1.0 - u.x));
-    let (sin, cos) = float::sin_cos_turns(u.y);
-    Vec2::new(cos, sin) * radius
+#[inline(always)]
+pub fn sample_slopes<F: Lane>([u, v]: [F; 2]) -> [F; 2] {
+    let radius = (-ln(F::ONE - u)).safe_sqrt();
+    let (sin, cos) = sin_cos_turns(v);
+    [cos * radius, sin * radius]
 }
 
-/// Slopes for α = 1 as seen from the unit vector `v` with z > 0 (Heitz & d'Eon 2014,
+/// Slopes for α = 1 as seen from the unit vector `from` with z > 0 (Heitz & d'Eon 2014,
 /// *Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals*).
 ///
-/// Along the azimuth of `v`, the slope x has the density ∝ (cos θ − x sin θ) exp(−x²) up to
+/// Along the azimuth of `from`, the slope x has the density ∝ (cos θ − x sin θ) exp(−x²) up to
 /// x = cot θ; its distribution function, times 2, is cos θ·c + sin θ exp(−x²)/√π with
 /// c = 1 + erf x, and is inverted by Halley's method in c, where it is concave (after W. Jakob
 /// 2014, *An Improved Visible Normal Sampling Routine for the Beckmann Distribution*). Across,
 /// the slope is Gaussian.
-#[inline]
-pub fn sample_visible_slopes(v: Vec3, u: Vec2) -> Vec2 {
-    let sin = v.truncate().length();
-    let along = if sin > 1e-7 {
-        v.truncate() / sin
-    } else {
-        Vec2::X
-    };
-    let x = visible_slope(v.z, sin, u.x);
+#[inline(always)]
+pub fn sample_visible_slopes<F: Lane>(from: F::Vector, [u, v]: [F; 2]) -> [F; 2] {
+    let [x, y, cos] = from.xyz();
+    let sin = (x * x + y * y).sqrt();
+    let has_azimuth = sin.gt(F::splat(1e-7));
+    let [x, y] = has_azimuth.select([x / sin, y / sin], [F::ONE, F::ZERO]);
+    let along = visible_slope(cos, sin, u);
     // A uniform number may be 0, whose slope would be infinite.
-    let y = inverse_erf_plus_one(2.0 * u.y.max(0.5 * f32::EPSILON));
-    along * x + along.perp() * y
+    let across = inverse_erf_plus_one(v.max(F::splat(0.5 * f32::EPSILON)) * 2.0);
+    [x * along - y * across, y * along + x * across]
 }
 
 /// The slope x of a visible facet, for the cosine and sine of the direction.
-#[inline]
-fn visible_slope(cos: f32, sin: f32, u: f32) -> f32 {
+#[inline(always)]
+fn visible_slope<F: Lane>(cos: F, sin: F, u: F) -> F {
     // c at the steepest visible slope, cot θ.
-    let a = cos / sin.max(1e-7);
-    let limit = 1.0 + erf(a);
+    let a = cos / sin.max(F::splat(1e-7));
+    let limit = erf(a) + 1.0;
     let grazing = sin * FRAC_1_SQRT_PI;
     let target = u * (cos * limit + grazing * exp(-a * a));
-    let (mut low, mut high) = (0.0, limit);
+    let (mut low, mut high) = (F::ZERO, limit);
     // Exact at normal incidence (p = 1); elsewhere p is fitted so that c is within 0.03.
-    let p = 1.0 + sin * (-0.795 + sin * (0.106 + sin * 0.133));
-    let mut c = limit * (1.0 - exp(p * ln(1.0 - u)));
+    let p = sin * (sin * (sin * 0.133 + 0.106) - 0.795) + 1.0;
+    let mut c = limit * (F::ONE - exp(p * ln(F::ONE - u)));
+    let mut slope = F::ZERO;
+    let mut open = F::Mask::splat(true);
     for _ in 0..12 {
-        if !(c > low && c < high) {
-            c = 0.5 * (low + high);
-        }
+        let inside = c.gt(low) & c.lt(high);
+        c = inside.select(c, (low + high) * 0.5);
         let x = inverse_erf_plus_one(c);
         let gauss = exp(-x * x);
         let error = cos * c + grazing * gauss - target;
-        if error > 0.0 {
-            high = c;
-        } else {
-            low = c;
-        }
+        [low, high] = error.gt(F::ZERO).select([low, c], [c, high]);
         // dx/dc = (√π/2) exp(x²); the error's derivatives in c are cos − sin·x and −sin·dx/dc.
-        let slope = 1.0 / (FRAC_2_SQRT_PI * gauss);
-        let newton = error / (cos - sin * x);
-        let step = newton / (1.0 + 0.5 * newton * sin * slope / (cos - sin * x));
-        if step.abs() <= 2e-3 * c {
-            // The remainder is of third order: two terms of the Taylor series suffice.
-            let dx = -step * slope;
-            return x + dx * (1.0 + x * dx);
+        let dx_dc = F::ONE / (gauss * FRAC_2_SQRT_PI);
+        let derivative = cos - sin * x;
+        let newton = error / derivative;
+        let step = newton / (newton * 0.5 * sin * dx_dc / derivative + 1.0);
+        let close = step.abs().le(c * 2e-3);
+        // The remainder is of third order: two terms of the Taylor series suffice.
+        let dx = -step * dx_dc;
+        slope = (open & close).select(x + dx * (x * dx + 1.0), slope);
+        open = open & !close;
+        if !open.any() {
+            return slope;
         }
-        c -= step;
+        c = c - step;
     }
-    inverse_erf_plus_one(c)
+    branch(open, || inverse_erf_plus_one(c), || slope)
 }
 
 /// The x for which 1 + erf x is `c`, in (0, 2): precise near 0 too. (M. Giles 2012,
 /// *Approximating the erfinv Function*, single precision.)
-#[inline]
-fn inverse_erf_plus_one(c: f32) -> f32 {
+#[inline(always)]
+fn inverse_erf_plus_one<F: Lane>(c: F) -> F {
     let c = c.clamp(1e-30, 2.0 - 1.2e-7);
-    let w = -ln(c * (2.0 - c));
-    let ratio = if w < 5.0 {
-        [
+    let w = -ln(c * (F::splat(2.0) - c));
+    let middle = || {
+        (w - 2.5).polynomial([
             2.810_226_4e-8,
             3.432_739_4e-7,
             -3.523_387_7e-6,
@@ -117,11 +110,10 @@ fn inverse_erf_plus_one(c: f32) -> f32 {
             -4.177_681_6e-3,
             0.246_640_73,
             1.501_409_4,
-        ]
-        .iter()
-        .fold(0.0, |sum: f32, k| sum.mul_add(w - 2.5, *k))
-    } else {
-        [
+        ])
+    };
+    let tails = || {
+        (w.sqrt() - 3.0).polynomial([
             -2.002_142_6e-4,
             1.009_505_6e-4,
             1.349_343_2e-3,
@@ -131,11 +123,9 @@ fn inverse_erf_plus_one(c: f32) -> f32 {
             9.438_870_5e-3,
             1.001_674,
             2.832_976_8,
-        ]
-        .iter()
-        .fold(0.0, |sum: f32, k| sum.mul_add(w.sqrt() - 3.0, *k))
+        ])
     };
-    ratio * (c - 1.0)
+    branch(w.lt(F::splat(5.0)), middle, tails) * (c - 1.0)
 }
 
 #[cfg(test)]

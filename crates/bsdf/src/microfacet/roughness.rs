@@ -3,6 +3,7 @@
 use crate::ShadingContext;
 use crate::inputs::non_negative;
 use crate::microfacet::{Kind, LEAST_ALPHA, Microfacet};
+use etalon_math::lane::Lane;
 use etalon_params::Params;
 use etalon_transport::{Build, TextureId, Textures};
 use glam::Vec2;
@@ -52,13 +53,27 @@ impl Roughness {
     /// The distribution at a point.
     #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Microfacet {
-        let alpha_u = site.number(self.alpha_u);
-        let alpha_v = if self.alpha_v == self.alpha_u {
-            alpha_u
-        } else {
-            site.number(self.alpha_v)
-        };
-        Microfacet::new(self.kind, Vec2::new(alpha_u, alpha_v), self.sample_visible)
+        Self::in_lanes(|_| (self, *site))
+    }
+
+    /// The distributions at several points.
+    #[inline]
+    pub(crate) fn in_lanes<'m, F: Lane, T: Textures + 'm>(
+        at: impl Fn(usize) -> (&'m Self, ShadingContext<'m, T>),
+    ) -> Microfacet<F> {
+        let along_x = F::from_fn(|i| {
+            let (roughness, site) = at(i);
+            site.number(roughness.alpha_u)
+        });
+        let along_y = F::from_fn(|i| {
+            let (roughness, site) = at(i);
+            match roughness.alpha_v == roughness.alpha_u {
+                true => along_x.lane(i),
+                false => site.number(roughness.alpha_v),
+            }
+        });
+        let alpha = [along_x, along_y];
+        Microfacet::in_lanes(|i| at(i).0.kind, alpha, |i| at(i).0.sample_visible)
     }
 }
 

@@ -127,7 +127,7 @@ impl Dielectric {
             self.eta.recip()
         };
         (wo.z != 0.0).then(|| {
-            let fresnel = fresnel::dielectric_lanes(wo.z.abs(), eta);
+            let fresnel = fresnel::dielectric_spectrum(wo.z.abs(), eta);
             (eta, fresnel + self.mirrored * (1.0 - fresnel))
         })
     }

@@ -105,7 +105,7 @@ impl Bxdf for PolarizedPlastic {
             return None;
         }
         let wi = match u_lobe < self.reflection {
-            true => reflect(wo, self.microfacet.sample(wo, u)),
+            true => reflect(wo, self.microfacet.sample(wo, u.to_array())),
             false => square_to_cosine_hemisphere(u),
         };
         self.continuous(wo, wi, 1.0, mode)

@@ -142,7 +142,9 @@ impl Description {
         Principled {
             colour: at.base_color,
             tint,
-            alpha: disney::microfacet(at.roughness, at.anisotropic).alpha,
+            alpha: disney::microfacet(at.roughness, at.anisotropic)
+                .alpha
+                .into(),
             eta: self.eta,
             metallic: at.metallic,
             through: dielectric * spec_trans,
@@ -332,7 +334,7 @@ impl Bxdf for Principled {
         } else if u_lobe < self.base_probability + self.coat_probability {
             reflect(wo, self.coat_normal(u))
         } else {
-            let m = self.microfacet().sample(wo, u);
+            let m = self.microfacet().sample(wo, u.to_array());
             let cos = wo.dot(m);
             if !(cos > 0.0) {
                 return None;

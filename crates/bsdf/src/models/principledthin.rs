@@ -240,7 +240,7 @@ impl Bxdf for PrincipledThin {
         let [base, reflected, passed, _] = self.probabilities.to_array();
         let beyond = Vec3::new(1.0, 1.0, -1.0);
         let mirrored = |microfacet: Microfacet| {
-            let wi = reflect(up, microfacet.sample(up, u));
+            let wi = reflect(up, microfacet.sample(up, u.to_array()));
             (wi.z > 0.0).then_some(wi)
         };
         let wi = if u_lobe < base {

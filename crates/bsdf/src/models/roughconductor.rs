@@ -99,7 +99,7 @@ impl Bxdf for RoughConductor {
         if !(wo.z > 0.0) {
             return None;
         }
-        let wi = reflect(wo, self.microfacet.sample(wo, u));
+        let wi = reflect(wo, self.microfacet.sample(wo, u.to_array()));
         self.continuous(wo, wi, 1.0, mode)
     }
 

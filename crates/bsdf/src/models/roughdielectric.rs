@@ -134,7 +134,7 @@ impl RoughDielectric {
         };
         let (d, density) = self.normal_density(wo, m);
         let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
-        let fresnel = fresnel::dielectric_lanes(cos, eta);
+        let fresnel = fresnel::dielectric_spectrum(cos, eta);
         (
             self.reflectance * fresnel * (d * shadowing / (4.0 * wo.z)),
             fresnel * (density / (4.0 * cos)),
@@ -201,7 +201,7 @@ impl Bxdf for RoughDielectric {
         }
         let (eta, mirror) = self.above(wo);
         let up = wo * mirror;
-        let m = self.sampled(up).sample(up, u);
+        let m = self.sampled(up).sample(up, u.to_array());
         let cos = up.dot(m);
         if !(cos > 0.0) {
             return None;

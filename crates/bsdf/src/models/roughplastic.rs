@@ -98,7 +98,7 @@ impl Bxdf for RoughPlastic<'_> {
         }
         let transmitted = self.interface.transmittance(wo.z);
         let wi = if u_lobe < self.coat.specular_probability(transmitted) {
-            reflect(wo, self.microfacet.sample(wo, u))
+            reflect(wo, self.microfacet.sample(wo, u.to_array()))
         } else {
             square_to_cosine_hemisphere(u)
         };
