@@ -92,13 +92,11 @@ impl<F: Lane> Microfacet<F> {
         let (x, y) = (x / alpha_x, y / alpha_y);
         let (s2, c2) = (x * x + y * y, cos * cos);
         let area = alpha_x * alpha_y;
-        let d = branch(
+        let root = s2 + c2;
+        let d = branch!(
             self.is_ggx,
-            || {
-                let root = s2 + c2;
-                F::splat(FRAC_1_PI) / (area * root * root)
-            },
-            || exp(-s2 / c2) * FRAC_1_PI / (area * c2 * c2),
+            F::splat(FRAC_1_PI) / (area * root * root),
+            exp(-s2 / c2) * FRAC_1_PI / (area * c2 * c2)
         );
         // Normals in the horizon are none, and a value too small to matter is a danger in ratios.
         (d * cos).gt(F::splat(1e-20)).select(d, F::ZERO)
@@ -118,7 +116,7 @@ impl<F: Lane> Microfacet<F> {
     #[inline(always)]
     pub fn g1(&self, v: F::Vector, m: F::Vector) -> F {
         let t2 = self.projected_roughness2(v);
-        let share = branch(self.is_ggx, || ggx::g1(t2), || beckmann::g1_rational(t2));
+        let share = branch!(self.is_ggx, ggx::g1(t2), beckmann::g1_rational(t2));
         let in_front = (v.dot_product(m) * v.z()).gt(F::ZERO);
         in_front.select(share, F::ZERO)
     }
@@ -127,34 +125,33 @@ impl<F: Lane> Microfacet<F> {
     #[inline(always)]
     fn g1_exact(&self, v: F::Vector) -> F {
         let t2 = self.projected_roughness2(v);
-        branch(self.is_ggx, || ggx::g1(t2), || beckmann::g1_exact(t2))
+        branch!(self.is_ggx, ggx::g1(t2), beckmann::g1_exact(t2))
     }
 
     /// Per steradian, the density with which [`Microfacet::sample`] finds the normal `m` for
     /// `wo` with z > 0, when D(m) is `d`.
     #[inline(always)]
     pub fn density(&self, wo: F::Vector, m: F::Vector, d: F) -> F {
-        let visible = || {
-            let cos = wo.dot_product(m);
-            let density = self.g1_exact(wo) * cos * d / wo.z();
-            (cos.gt(F::ZERO) & d.gt(F::ZERO)).select(density, F::ZERO)
-        };
-        branch(self.sample_visible, visible, || d * m.z())
+        let cos = wo.dot_product(m);
+        let visible = cos.gt(F::ZERO) & d.gt(F::ZERO);
+        branch!(
+            self.sample_visible,
+            visible.select(self.g1_exact(wo) * cos * d / wo.z(), F::ZERO),
+            d * m.z()
+        )
     }
 
     /// A normal for `wo` with z > 0.
     #[inline(always)]
     pub fn sample(&self, wo: F::Vector, u: [F; 2]) -> F::Vector {
-        branch(
+        branch!(
             self.sample_visible,
-            || self.sample_visible_normal(wo, u),
-            || {
-                self.normal_of_slopes(branch(
-                    self.is_ggx,
-                    || ggx::sample_slopes(u),
-                    || beckmann::sample_slopes(u),
-                ))
-            },
+            self.sample_visible_normal(wo, u),
+            self.normal_of_slopes(branch!(
+                self.is_ggx,
+                ggx::sample_slopes(u),
+                beckmann::sample_slopes(u)
+            ))
         )
     }
 
@@ -164,14 +161,14 @@ impl<F: Lane> Microfacet<F> {
     fn sample_visible_normal(&self, wo: F::Vector, u: [F; 2]) -> F::Vector {
         let ([x, y, z], [alpha_x, alpha_y]) = (wo.xyz(), self.alpha);
         let stretched = F::Vector::from_xyz(x * alpha_x, y * alpha_y, z).normalized();
-        branch(
+        branch!(
             self.is_ggx,
-            || {
+            {
                 let [x, y, z] = ggx::sample_visible_normal::<F>(stretched, u).xyz();
                 let z = z.max(F::splat(1e-7));
                 F::Vector::from_xyz(x * alpha_x, y * alpha_y, z).normalized()
             },
-            || self.normal_of_slopes(beckmann::sample_visible_slopes(stretched, u)),
+            self.normal_of_slopes(beckmann::sample_visible_slopes(stretched, u))
         )
     }
 

@@ -46,6 +46,7 @@ mod spectrum;
 mod trigonometric;
 mod vector3;
 
+pub use crate::branch;
 pub use arc::{acos, asin, atan, atan2};
 pub use erf::erf;
 pub use exp::exp;
@@ -53,7 +54,7 @@ pub use frame::LaneFrame;
 pub use int::Int;
 pub use kernel::{Kernel, apply};
 pub use ln::ln;
-pub use mask::{Mask, Select, branch};
+pub use mask::{Mask, Select};
 pub use pow::pow;
 pub use simd_vector::{F32x8, F32x16, Mask8, Mask16, U32x8, U32x16};
 pub use spectrum::{Spectral, Spectrum};

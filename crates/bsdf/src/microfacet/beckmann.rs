@@ -18,12 +18,11 @@ pub fn g1_rational<F: Lane>(roughness2: F) -> F {
 pub fn g1_exact<F: Lane>(roughness2: F) -> F {
     // Above a = 4.5 the difference from 1 is below 10⁻¹⁰.
     let nearly_one = roughness2.le(F::splat(1.0 / (4.5 * 4.5)));
-    let exact = || {
+    branch!(nearly_one, F::ONE, {
         let t = roughness2.sqrt();
         let a = F::ONE / t;
         F::splat(2.0) / (erf(a) + 1.0 + exp(-a * a) * t * FRAC_1_SQRT_PI)
-    };
-    branch(nearly_one, || F::ONE, exact)
+    })
 }
 
 /// Slopes for α = 1 as they are on the surface: tan² θ = −ln(1 − u) (ibid., eq. 28).
@@ -90,7 +89,7 @@ fn visible_slope<F: Lane>(cos: F, sin: F, u: F) -> F {
         }
         c = c - step;
     }
-    branch(open, || inverse_erf_plus_one(c), || slope)
+    branch!(open, inverse_erf_plus_one(c), slope)
 }
 
 /// The x for which 1 + erf x is `c`, in (0, 2): precise near 0 too. (M. Giles 2012,
@@ -99,7 +98,8 @@ fn visible_slope<F: Lane>(cos: F, sin: F, u: F) -> F {
 fn inverse_erf_plus_one<F: Lane>(c: F) -> F {
     let c = c.clamp(1e-30, 2.0 - 1.2e-7);
     let w = -ln(c * (F::splat(2.0) - c));
-    let middle = || {
+    let ratio = branch!(
+        w.lt(F::splat(5.0)),
         (w - 2.5).polynomial([
             2.810_226_4e-8,
             3.432_739_4e-7,
@@ -110,9 +110,7 @@ fn inverse_erf_plus_one<F: Lane>(c: F) -> F {
             -4.177_681_6e-3,
             0.246_640_73,
             1.501_409_4,
-        ])
-    };
-    let tails = || {
+        ]),
         (w.sqrt() - 3.0).polynomial([
             -2.002_142_6e-4,
             1.009_505_6e-4,
@@ -124,8 +122,8 @@ fn inverse_erf_plus_one<F: Lane>(c: F) -> F {
             1.001_674,
             2.832_976_8,
         ])
-    };
-    branch(w.lt(F::splat(5.0)), middle, tails) * (c - 1.0)
+    );
+    ratio * (c - 1.0)
 }
 
 #[cfg(test)]

@@ -53,13 +53,13 @@ impl Roughness {
     /// The distribution at a point.
     #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Microfacet {
-        Self::in_lanes(|_| (self, *site))
+        Self::in_lanes(|_| (self, site))
     }
 
     /// The distributions at several points.
     #[inline]
-    pub(crate) fn in_lanes<'m, F: Lane, T: Textures + 'm>(
-        at: impl Fn(usize) -> (&'m Self, ShadingContext<'m, T>),
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
     ) -> Microfacet<F> {
         let along_x = F::from_fn(|i| {
             let (roughness, site) = at(i);

@@ -49,18 +49,27 @@ impl<M: Mask + Select<T>, T> Select<[T; 2]> for M {
     }
 }
 
-/// `yes()` in the lanes where `mask` says yes, `no()` in the others; a side that no lane takes is not evaluated.
-#[inline(always)]
-pub fn branch<M: Mask + Select<T>, T>(
-    mask: M,
-    yes: impl FnOnce() -> T,
-    no: impl FnOnce() -> T,
-) -> T {
-    let yes = mask.any().then(yes);
-    let no = (!mask.all()).then(no);
-    match (yes, no) {
-        (Some(yes), Some(no)) => mask.select(yes, no),
-        (Some(only), None) | (None, Some(only)) => only,
-        (None, None) => unreachable!("a lane says yes or no"),
-    }
+/// `$yes` in the lanes where `$mask` says yes, `$no` in the others; a side that no lane takes is not evaluated.
+///
+/// A macro, since the bodies of closures are not certain to be inlined.
+#[macro_export]
+macro_rules! branch {
+    ($mask:expr, $yes:expr, $no:expr $(,)?) => {{
+        let mask = $mask;
+        let yes = if $crate::lane::Mask::any(mask) {
+            Some($yes)
+        } else {
+            None
+        };
+        let no = if $crate::lane::Mask::all(mask) {
+            None
+        } else {
+            Some($no)
+        };
+        match (yes, no) {
+            (Some(yes), Some(no)) => $crate::lane::Select::select(mask, yes, no),
+            (Some(only), None) | (None, Some(only)) => only,
+            (None, None) => unreachable!("a lane says yes or no"),
+        }
+    }};
 }

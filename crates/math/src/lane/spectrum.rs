@@ -2,7 +2,7 @@
 //!
 //! Operations are written out: arrays of vectors that are mapped stay loops through memory.
 
-use super::{Lane, Select, per_lane};
+use super::{Lane, MOST_LANES, Select};
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -45,9 +45,11 @@ pub trait Spectral<F: Lane>:
     /// `spectrum(i)` in lane i.
     #[inline(always)]
     fn of_lanes(spectrum: impl Fn(usize) -> glam::Vec4) -> Self {
-        let spectra = per_lane::<F, _>(spectrum);
-        let wave = |wave: usize| F::from_fn(|i| spectra[i][wave]);
-        Self::from_waves([wave(0), wave(1), wave(2), wave(3)])
+        let [mut a, mut b, mut c, mut d] = [[0.0; MOST_LANES]; 4];
+        for i in 0..F::WIDTH {
+            [a[i], b[i], c[i], d[i]] = spectrum(i).to_array();
+        }
+        Self::from_waves([F::load(&a), F::load(&b), F::load(&c), F::load(&d)])
     }
 
     /// The spectrum in lane `index`.

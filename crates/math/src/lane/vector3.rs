@@ -1,6 +1,6 @@
 //! Points, directions and normals in lanes.
 
-use super::{Lane, Select, per_lane};
+use super::{Lane, MOST_LANES, Select};
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -23,9 +23,11 @@ pub trait Vector<F: Lane>:
     /// `vector(i)` in lane i.
     #[inline(always)]
     fn of_lanes(vector: impl Fn(usize) -> glam::Vec3) -> Self {
-        let vectors = per_lane::<F, _>(vector);
-        let coordinate = |axis: usize| F::from_fn(|i| vectors[i][axis]);
-        Self::from_xyz(coordinate(0), coordinate(1), coordinate(2))
+        let [mut x, mut y, mut z] = [[0.0; MOST_LANES]; 3];
+        for i in 0..F::WIDTH {
+            [x[i], y[i], z[i]] = vector(i).to_array();
+        }
+        Self::from_xyz(F::load(&x), F::load(&y), F::load(&z))
     }
 
     /// The vector in lane `index`.

@@ -45,7 +45,7 @@ kernel!(Arithmetic: [a, b, c] => [
 kernel!(Comparison: [a, b, c] => [
     flag(a.eq(b)), flag(a.lt(b)), flag(a.le(b)), flag(a.gt(b)), flag(a.ge(b)),
     flag(a.lt(b) & b.lt(c)), flag(a.lt(b) | b.lt(c)), flag(a.lt(b) ^ b.lt(c)), flag(!a.lt(b)),
-    a.lt(b).select(b, c), branch(a.lt(b), || b, || c), a.lt(b).select((b, a), (c, b)).1,
+    a.lt(b).select(b, c), branch!(a.lt(b), b, c), a.lt(b).select((b, a), (c, b)).1,
     a.lt(b).select([b, a], [c, b])[1], F::from_bits(a.lt(b).select(b.to_bits(), c.to_bits())),
     flag(F::Mask::splat(true)), flag(F::Mask::from_fn(|i| i > 64)),
 ]);
