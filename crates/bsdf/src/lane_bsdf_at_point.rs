@@ -1,7 +1,8 @@
 //! Materials of one kind at several points, in vector lanes.
 
 use crate::{LaneModel, Material, ShadingContext};
-use etalon_math::lane::{Lane, LaneFrame, Mask, Vector};
+use arrayvec::ArrayVec;
+use etalon_math::lane::{Lane, LaneFrame, MOST_LANES, Mask, Spectral, Vector};
 use etalon_transport::{LaneBsdf, LaneBsdfSample, LaneKind, LaneVertices, Textures};
 
 /// A model of scattering in lanes, in its own frame: z is the normal. Light is followed from the camera.
@@ -16,6 +17,13 @@ pub(crate) trait LaneBxdf<F: Lane> {
 
     /// Samples a direction.
     fn sample_lanes(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F>;
+}
+
+/// The value and the density of directions into which nothing is scattered.
+#[inline(always)]
+pub(crate) fn nothing<F: Lane>() -> (F::Spectrum, F::Spectrum) {
+    let zero = F::Spectrum::uniform(F::ZERO);
+    (zero, zero)
 }
 
 /// Materials of one kind, each at its point.
@@ -44,10 +52,10 @@ impl<F: Lane> LaneBsdfAtPoint<F> {
         let back = F::Mask::from_fn(|i| material(i).has_two_sides())
             & !frame.n.dot_product(wo).gt(F::ZERO);
         frame.n = F::Vector::choose(back, -frame.n, frame.n);
-        let model = LaneModel::new(kind, |i| {
-            let site = ShadingContext::new(textures, vertices[i], wo.at_lane(i), &wavelengths[i]);
-            (material(i).lane_side(back.lane(i)), site)
-        });
+        let sites: ArrayVec<_, MOST_LANES> = (0..F::WIDTH)
+            .map(|i| ShadingContext::new(textures, vertices[i], wo.at_lane(i), &wavelengths[i]))
+            .collect();
+        let model = LaneModel::new(kind, |i| (material(i).lane_side(back.lane(i)), &sites[i]));
         Self { frame, model }
     }
 }
@@ -57,7 +65,8 @@ impl<F: Lane> LaneBsdf<F> for LaneBsdfAtPoint<F> {
     fn hemisphere(&self, wo: F::Vector) -> Option<F::Vector> {
         let n = self.frame.n;
         let below = n.dot_product(wo).lt(F::ZERO);
-        (!self.model.transmits()).then(|| F::Vector::choose(below, -n, n))
+        let is_one_sided = self.model.has_continuous() && !self.model.transmits();
+        is_one_sided.then(|| F::Vector::choose(below, -n, n))
     }
 
     #[inline]

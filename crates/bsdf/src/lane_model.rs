@@ -4,7 +4,7 @@
 //! one lane, and add one line to the list at the end of this file. The test harness follows from it.
 
 use crate::lane_bsdf_at_point::LaneBxdf;
-use crate::models::diffuse;
+use crate::models::{diffuse, roughconductor};
 use crate::{Material, ShadingContext};
 use etalon_math::lane::Lane;
 use etalon_transport::{LaneBsdfSample, LaneKind, Textures};
@@ -27,9 +27,9 @@ macro_rules! lane_models {
         impl<F: Lane> LaneModel<F> {
             /// The plain material of `at(i)`, of this kind, at its point, in lane i.
             #[inline]
-            pub(crate) fn new<'m, T: Textures + 'm>(
+            pub(crate) fn new<'m, 's, T: Textures + 's>(
                 kind: LaneKind,
-                at: impl Fn(usize) -> (&'m Material, ShadingContext<'m, T>),
+                at: impl Fn(usize) -> (&'m Material, &'s ShadingContext<'s, T>),
             ) -> Self {
                 $(if kind.0 == LaneIndex::$model as u8 {
                     return Self::$model($module::Description::in_lanes(|i| match at(i) {
@@ -100,4 +100,5 @@ impl Material {
 // The list: a line for each model.
 lane_models! {
     Diffuse diffuse,
+    RoughConductor roughconductor,
 }

@@ -162,6 +162,22 @@ pub struct LaneBsdfSample<F: Lane> {
     pub eta: F,
 }
 
+impl<F: Lane> LaneBsdfSample<F> {
+    /// Directions of a continuum with their values and densities (sr⁻¹). One is found where its density is above 0 at the wavelength
+    /// that chose.
+    #[inline(always)]
+    pub fn continuous(wi: F::Vector, (value, density): (F::Spectrum, F::Spectrum), eta: F) -> Self {
+        Self {
+            found: density.hero().gt(F::ZERO),
+            wi,
+            value,
+            chance: density,
+            is_delta: F::Mask::splat(false),
+            eta,
+        }
+    }
+}
+
 impl LaneBsdfSample<f32> {
     /// The sample, where there is one lane.
     #[inline]

@@ -2,10 +2,10 @@
 
 use crate::ShadingContext;
 use crate::interface::relative_index::{held_table, number_from_params};
+use etalon_math::lane::{Lane, Spectral};
 use etalon_params::{Diagnostic, Params, Property, Value};
 use etalon_spectrum::{Spectrum, conductor_colour, conductors, parse_spd};
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
-use glam::Vec4;
 
 /// η and k, with textures. The outside is vacuum, as in Mitsuba 3, unless the scene says otherwise.
 #[derive(Clone, Debug)]
@@ -60,14 +60,18 @@ impl Metal {
         })
     }
 
-    /// η and k at a point relative to the outside, per lane.
+    /// η and k at several points relative to the outside, per wavelength.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> (Vec4, Vec4) {
-        let relative = self.inverse_exterior;
-        (
-            site.spectrum(self.eta) * relative,
-            site.spectrum(self.k) * relative,
-        )
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+    ) -> [F::Spectrum; 2] {
+        let part = |texture: fn(&Self) -> TextureId| {
+            F::Spectrum::of_lanes(|i| {
+                let (metal, site) = at(i);
+                site.spectrum(texture(metal)) * metal.inverse_exterior
+            })
+        };
+        [part(|metal| metal.eta), part(|metal| metal.k)]
     }
 }
 

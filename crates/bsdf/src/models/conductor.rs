@@ -47,7 +47,7 @@ impl Description {
 
     /// The model at a point.
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Conductor {
-        let (eta, k) = self.metal.resolve(site);
+        let [eta, k] = Metal::in_lanes::<f32, T>(|_| (&self.metal, site));
         Conductor {
             eta,
             k,

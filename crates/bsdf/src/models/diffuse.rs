@@ -42,13 +42,13 @@ impl Description {
     /// The model at a point.
     #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Diffuse {
-        Self::in_lanes(|_| (self, *site))
+        Self::in_lanes(|_| (self, site))
     }
 
     /// The models at several points.
     #[inline]
-    pub(crate) fn in_lanes<'m, F: Lane, T: Textures + 'm>(
-        at: impl Fn(usize) -> (&'m Self, ShadingContext<'m, T>),
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
     ) -> Diffuse<F> {
         let reflectance = |i: usize| {
             let (description, site) = at(i);

@@ -9,12 +9,16 @@
 
 use crate::interface::fresnel;
 use crate::interface::metal::Metal;
-use crate::interface::refraction::{half_way, reflect};
+use crate::interface::refraction::{half_vector, reflect};
+use crate::lane_bsdf_at_point::{LaneBxdf, nothing};
 use crate::microfacet::Microfacet;
 use crate::microfacet::roughness::Roughness;
 use crate::{Bxdf, ShadingContext};
+use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector};
 use etalon_params::Params;
-use etalon_transport::{BsdfSample, Build, SpectrumKind, TextureId, Textures, TransportMode};
+use etalon_transport::{
+    BsdfSample, Build, LaneBsdfSample, SpectrumKind, TextureId, Textures, TransportMode,
+};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Parameters to test with (see [`crate::test_materials`]).
@@ -54,53 +58,83 @@ impl Description {
     }
 
     /// The model at a point.
+    #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> RoughConductor {
-        let (eta, k) = self.metal.resolve(site);
+        Self::in_lanes(|_| (self, site))
+    }
+
+    /// The models at several points.
+    #[inline]
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+    ) -> RoughConductor<F> {
+        let reflectance = |i: usize| {
+            let (description, site) = at(i);
+            site.spectrum(description.reflectance)
+        };
+        let [eta, k] = Metal::in_lanes::<F, T>(|i| {
+            let (description, site) = at(i);
+            (&description.metal, site)
+        });
         RoughConductor {
             eta,
             k,
-            reflectance: site.spectrum(self.reflectance),
-            microfacet: self.roughness.resolve(site),
+            reflectance: F::Spectrum::of_lanes(reflectance),
+            microfacet: Roughness::in_lanes(|i| {
+                let (description, site) = at(i);
+                (&description.roughness, site)
+            }),
         }
     }
 }
 
 /// A rough metal.
 #[derive(Clone, Copy, Debug)]
-pub struct RoughConductor {
-    /// Real part of the index, per lane.
-    pub eta: Vec4,
-    /// Imaginary part of the index, per lane.
-    pub k: Vec4,
-    /// Factor of the reflectance, per lane.
-    pub reflectance: Vec4,
+pub struct RoughConductor<F: Lane = f32> {
+    /// Real part of the index, per wavelength.
+    pub eta: F::Spectrum,
+    /// Imaginary part of the index, per wavelength.
+    pub k: F::Spectrum,
+    /// Factor of the reflectance, per wavelength.
+    pub reflectance: F::Spectrum,
     /// The distribution of normals.
-    pub microfacet: Microfacet,
+    pub microfacet: Microfacet<F>,
 }
 
-impl Bxdf for RoughConductor {
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
-        if !(wo.z > 0.0 && wi.z > 0.0) {
-            return (Vec4::ZERO, Vec4::ZERO);
+impl<F: Lane> LaneBxdf<F> for RoughConductor<F> {
+    const CONTINUOUS: bool = true;
+    const TRANSMITS: bool = false;
+
+    #[inline(always)]
+    fn eval_lanes(&self, wo: F::Vector, wi: F::Vector) -> (F::Spectrum, F::Spectrum) {
+        let (has_normal, m, cos) = half_vector::<F>(wo, wi);
+        let reflects = wo.z().gt(F::ZERO) & wi.z().gt(F::ZERO) & has_normal;
+        if !reflects.any() {
+            return nothing::<F>();
         }
-        let Some((m, cos)) = half_way(wo, wi) else {
-            return (Vec4::ZERO, Vec4::ZERO);
-        };
         let d = self.microfacet.d(m);
         let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
         let value = self.reflectance
             * fresnel::conductor(cos, self.eta, self.k)
-            * (d * shadowing / (4.0 * wo.z));
-        let density = self.microfacet.density(wo, m, d) / (4.0 * cos);
-        (value, Vec4::splat(density))
+            * (d * shadowing / (wo.z() * 4.0));
+        let density = self.microfacet.density(wo, m, d) / (cos * 4.0);
+        reflects.select((value, F::Spectrum::uniform(density)), nothing::<F>())
     }
 
-    fn sample(&self, wo: Vec3, _: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
-        if !(wo.z > 0.0) {
-            return None;
-        }
-        let wi = reflect(wo, self.microfacet.sample(wo, u.to_array()));
-        self.continuous(wo, wi, 1.0, mode)
+    #[inline(always)]
+    fn sample_lanes(&self, wo: F::Vector, _: F, u: [F; 2]) -> LaneBsdfSample<F> {
+        let wi = reflect(wo, self.microfacet.sample(wo, u));
+        LaneBsdfSample::continuous(wi, self.eval_lanes(wo, wi), F::ONE)
+    }
+}
+
+impl Bxdf for RoughConductor {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
+        self.eval_lanes(wo, wi)
+    }
+
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, _: TransportMode) -> Option<BsdfSample> {
+        self.sample_lanes(wo, u_lobe, u.to_array()).only()
     }
 
     fn has_continuous(&self) -> bool {

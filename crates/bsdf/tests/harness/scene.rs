@@ -164,7 +164,7 @@ pub(crate) struct Sample {
     /// The notation it was read from.
     pub(crate) text: String,
     material: Material,
-    scene: Scene,
+    pub(crate) scene: Scene,
 }
 
 impl Sample {
@@ -209,11 +209,6 @@ impl Sample {
     ) -> BsdfAtPoint<'_> {
         self.material
             .resolve(&self.scene, &vertex(shading), wo, wavelengths)
-    }
-
-    /// The textures of its scene.
-    pub(crate) fn textures(&self) -> &Scene {
-        &self.scene
     }
 
     /// The material's flags.
