@@ -28,17 +28,17 @@ pub(crate) fn nothing<F: Lane>() -> (F::Spectrum, F::Spectrum) {
 
 /// Materials of one kind, each at its point.
 #[derive(Clone, Copy, Debug)]
-pub struct LaneBsdfAtPoint<F: Lane> {
+pub struct LaneBsdfAtPoint<'a, F: Lane> {
     frame: LaneFrame<F>,
-    model: LaneModel<F>,
+    model: LaneModel<'a, F>,
 }
 
-impl<F: Lane> LaneBsdfAtPoint<F> {
+impl<'a, F: Lane> LaneBsdfAtPoint<'a, F> {
     /// The material `material(i)`, of this kind, at vertex i.
     #[inline]
-    pub fn new<'m, T: Textures>(
+    pub fn new<T: Textures>(
         kind: LaneKind,
-        material: impl Fn(usize) -> &'m Material,
+        material: impl Fn(usize) -> &'a Material,
         textures: &T,
         LaneVertices {
             vertices,
@@ -60,7 +60,7 @@ impl<F: Lane> LaneBsdfAtPoint<F> {
     }
 }
 
-impl<F: Lane> LaneBsdf<F> for LaneBsdfAtPoint<F> {
+impl<F: Lane> LaneBsdf<F> for LaneBsdfAtPoint<'_, F> {
     #[inline]
     fn hemisphere(&self, wo: F::Vector) -> Option<F::Vector> {
         let n = self.frame.n;

@@ -4,18 +4,18 @@
 //! one lane, and add one line to the list at the end of this file. The test harness follows from it.
 
 use crate::lane_bsdf_at_point::LaneBxdf;
-use crate::models::{diffuse, roughconductor};
+use crate::models::{diffuse, roughconductor, roughplastic};
 use crate::{Material, ShadingContext};
 use etalon_math::lane::Lane;
 use etalon_transport::{LaneBsdfSample, LaneKind, Textures};
 
 macro_rules! lane_models {
-    ($($model:ident $module:ident,)*) => {
+    ($($model:ident $module:ident $(<$life:lifetime>)?,)*) => {
         /// A model at several points, in lanes.
         #[derive(Clone, Copy, Debug)]
-        pub enum LaneModel<F: Lane> {
+        pub enum LaneModel<'a, F: Lane> {
             $(#[doc = concat!("See [`", stringify!($module), "`].")]
-            $model($module::$model<F>),)*
+            $model($module::$model<$($life,)? F>),)*
         }
 
         /// The kinds of vertices that can be shaded in lanes.
@@ -24,12 +24,12 @@ macro_rules! lane_models {
             $($model,)*
         }
 
-        impl<F: Lane> LaneModel<F> {
+        impl<'a, F: Lane> LaneModel<'a, F> {
             /// The plain material of `at(i)`, of this kind, at its point, in lane i.
             #[inline]
-            pub(crate) fn new<'m, 's, T: Textures + 's>(
+            pub(crate) fn new<'s, T: Textures + 's>(
                 kind: LaneKind,
-                at: impl Fn(usize) -> (&'m Material, &'s ShadingContext<'s, T>),
+                at: impl Fn(usize) -> (&'a Material, &'s ShadingContext<'s, T>),
             ) -> Self {
                 $(if kind.0 == LaneIndex::$model as u8 {
                     return Self::$model($module::Description::in_lanes(|i| match at(i) {
@@ -43,13 +43,13 @@ macro_rules! lane_models {
             /// Whether it scatters into a continuum of directions.
             #[inline]
             pub(crate) fn has_continuous(&self) -> bool {
-                match self { $(Self::$model(_) => <$module::$model<F> as LaneBxdf<F>>::CONTINUOUS,)* }
+                match self { $(Self::$model(_) => <$module::$model<$($life,)? F> as LaneBxdf<F>>::CONTINUOUS,)* }
             }
 
             /// Whether light may pass to the other side.
             #[inline]
             pub(crate) fn transmits(&self) -> bool {
-                match self { $(Self::$model(_) => <$module::$model<F> as LaneBxdf<F>>::TRANSMITS,)* }
+                match self { $(Self::$model(_) => <$module::$model<$($life,)? F> as LaneBxdf<F>>::TRANSMITS,)* }
             }
 
             #[inline]
@@ -101,4 +101,5 @@ impl Material {
 lane_models! {
     Diffuse diffuse,
     RoughConductor roughconductor,
+    RoughPlastic roughplastic <'a>,
 }

@@ -108,11 +108,15 @@ pub trait Lane:
     type Vector: Vector<Self>;
     /// As many quantities at a path's four wavelengths.
     type Spectrum: Spectral<Self>;
+    /// As many items of any other kind.
+    type Array<T: Copy + Debug>: Copy + Debug + AsRef<[T]>;
 
     /// The same number in every lane.
     fn splat(value: f32) -> Self;
     /// `value(i)` in lane i.
     fn from_fn(value: impl FnMut(usize) -> f32) -> Self;
+    /// `item(i)` for lane i.
+    fn array<T: Copy + Debug>(item: impl FnMut(usize) -> T) -> Self::Array<T>;
     /// The number in lane `index`.
     fn lane(self, index: usize) -> f32;
 

@@ -221,8 +221,10 @@ pub struct LaneVertices<'a> {
 
 /// What a scene can do for several vertices at once.
 pub trait LaneShading: Sync {
-    /// The scattering models of several vertices.
-    type Bsdf<F: Lane>: LaneBsdf<F>;
+    /// The scattering models of several vertices, which may refer to tables of the scene.
+    type Bsdf<'a, F: Lane>: LaneBsdf<F>
+    where
+        Self: 'a;
 
     /// The kind of a vertex; `None` if it must be shaded by itself.
     fn kind(&self, vertex: &SurfaceInteraction) -> Option<LaneKind>;
@@ -233,7 +235,7 @@ pub trait LaneShading: Sync {
         kind: LaneKind,
         vertices: LaneVertices<'_>,
         wo: F::Vector,
-    ) -> Self::Bsdf<F>;
+    ) -> Self::Bsdf<'_, F>;
 
     /// Light samples, as by [`World::sample_light`](crate::World::sample_light), in the lanes where they are `wanted` at least.
     fn sample_light<F: Lane>(
@@ -269,7 +271,7 @@ impl<F: Lane> LaneBsdf<F> for NoLanes {
 }
 
 impl LaneShading for NoLanes {
-    type Bsdf<F: Lane> = Self;
+    type Bsdf<'a, F: Lane> = Self;
 
     fn kind(&self, _: &SurfaceInteraction) -> Option<LaneKind> {
         match *self {}

@@ -13,6 +13,7 @@ use crate::interface::fresnel;
 use crate::interface::refraction::{reflect, refract};
 use crate::microfacet::Microfacet;
 use crate::quadrature::gauss_legendre;
+use etalon_math::lane::{Int, Lane};
 use glam::Vec3;
 
 /// Number of cosines at which the transmittance is tabulated, equally spaced over [0, 1].
@@ -60,13 +61,16 @@ impl RoughFresnel {
         }
     }
 
-    /// T at the cosine `cos` in [0, 1], linear between the table's entries.
-    #[inline]
-    pub fn transmittance(&self, cos: f32) -> f32 {
+    /// T of each lane's coat at the cosine `cos` in [0, 1], linear between the table's entries.
+    #[inline(always)]
+    pub fn transmittance<F: Lane>(coats: F::Array<&Self>, cos: F) -> F {
         let x = cos.clamp(0.0, 1.0) * (COSINES - 1) as f32;
-        let i = (x as usize).min(COSINES - 2);
-        let t = x - i as f32;
-        self.transmittance[i] * (1.0 - t) + self.transmittance[i + 1] * t
+        let before = x.floor().min(F::splat((COSINES - 2) as f32));
+        let (t, index) = (x - before, before.to_int());
+        let entry = |next: usize| {
+            F::from_fn(|i| coats.as_ref()[i].transmittance[index.lane(i) as usize + next])
+        };
+        entry(0) * (F::ONE - t) + entry(1) * t
     }
 }
 
@@ -130,7 +134,10 @@ mod tests {
         for i in [5, 20, 40, 63] {
             let cos = i as f32 / 63.0;
             let smooth = 1.0 - fresnel::dielectric(cos, 1.5).0;
-            assert!((coat.transmittance(cos) - smooth).abs() < 1e-4, "{i}");
+            assert!(
+                (RoughFresnel::transmittance([&coat], cos) - smooth).abs() < 1e-4,
+                "{i}"
+            );
         }
     }
 

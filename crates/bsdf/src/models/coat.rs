@@ -12,9 +12,9 @@
 //! `plastic`.)
 
 use core::f32::consts::FRAC_1_PI;
+use etalon_math::lane::{Lane, Mask, Select, Spectral};
 use etalon_params::Params;
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
-use glam::Vec4;
 
 use crate::ShadingContext;
 use crate::interface::relative_index::RelativeIndex;
@@ -45,67 +45,63 @@ impl Coating {
         })
     }
 
-    /// The base at a point, for the internal reflectance R.
-    #[inline]
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>, internal: f32) -> Coat {
-        let eta = self.eta as f32;
-        Coat::new(
+    /// The bases at several points, for their internal reflectances R.
+    #[inline(always)]
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        internal: F,
+    ) -> Coat<F> {
+        let factor = |texture: fn(&Self) -> TextureId| {
+            F::Spectrum::of_lanes(|i| {
+                let (coating, site) = at(i);
+                site.spectrum(texture(coating))
+            })
+        };
+        let diffuse = factor(|coating| coating.diffuse);
+        let nonlinear = F::Mask::from_fn(|i| at(i).0.nonlinear);
+        let one = F::Spectrum::uniform(F::ONE);
+        let absorbed = nonlinear.select(diffuse, one) * internal;
+        let through = diffuse / (one - absorbed);
+        let eta = F::from_fn(|i| at(i).0.eta as f32);
+        Coat {
             eta,
-            site.spectrum(self.diffuse),
-            site.spectrum(self.specular),
-            self.nonlinear,
-            internal,
-        )
+            specular: factor(|coating| coating.specular),
+            diffuse,
+            base: through * (F::splat(FRAC_1_PI) / (eta * eta)),
+            returned: through * (F::ONE - internal),
+        }
     }
 }
 
 /// The plain numbers of a coated base.
 #[derive(Clone, Copy, Debug)]
-pub struct Coat {
+pub struct Coat<F: Lane = f32> {
     /// Index inside over index outside.
-    pub eta: f32,
-    /// Factor of the light reflected by the coat, per lane.
-    pub specular: Vec4,
-    /// ρ, per lane.
-    pub diffuse: Vec4,
-    /// ρ / (1 − ρ' R) / (π η²), per lane.
-    base: Vec4,
-    /// The fraction of the light let in that comes out again, ρ (1 − R) / (1 − ρ' R), per lane.
-    returned: Vec4,
+    pub eta: F,
+    /// Factor of the light reflected by the coat, per wavelength.
+    pub specular: F::Spectrum,
+    /// ρ, per wavelength.
+    pub diffuse: F::Spectrum,
+    /// ρ / (1 − ρ' R) / (π η²), per wavelength.
+    base: F::Spectrum,
+    /// The fraction of the light let in that comes out again, ρ (1 − R) / (1 − ρ' R), per wavelength.
+    returned: F::Spectrum,
 }
 
-impl Coat {
-    /// A coat of relative index `eta` and internal reflectance `internal` over a base of albedo
-    /// `diffuse`.
-    #[inline]
-    pub fn new(eta: f32, diffuse: Vec4, specular: Vec4, nonlinear: bool, internal: f32) -> Self {
-        let through = if nonlinear {
-            diffuse / (1.0 - diffuse * internal)
-        } else {
-            diffuse / (1.0 - internal)
-        };
-        Self {
-            eta,
-            specular,
-            diffuse,
-            base: through * (FRAC_1_PI / (eta * eta)),
-            returned: through * (1.0 - internal),
-        }
-    }
-
+impl<F: Lane> Coat<F> {
     /// f_base · cos θi for the coat's transmittances at both angles.
-    #[inline]
-    pub fn base(&self, transmitted_o: f32, transmitted_i: f32, cos_i: f32) -> Vec4 {
+    #[inline(always)]
+    pub fn base(&self, transmitted_o: F, transmitted_i: F, cos_i: F) -> F::Spectrum {
         self.base * (transmitted_o * transmitted_i * cos_i)
     }
 
     /// The probability of sampling the coat's reflection rather than the base: their shares of
-    /// the albedo, over all lanes together, so that every lane has the same.
-    #[inline]
-    pub fn specular_probability(&self, transmitted: f32) -> f32 {
-        let specular = self.specular.element_sum() * (1.0 - transmitted);
-        let base = self.returned.element_sum() * transmitted;
+    /// the albedo, over all wavelengths together, so that every one has the same.
+    #[inline(always)]
+    pub fn specular_probability(&self, transmitted: F) -> F {
+        let specular = self.specular.sum() * (F::ONE - transmitted);
+        let base = self.returned.sum() * transmitted;
         let sum = specular + base;
-        if sum > 0.0 { specular / sum } else { 0.0 }
+        sum.gt(F::ZERO).select(specular / sum, F::ZERO)
     }
 }

@@ -211,7 +211,7 @@ impl Layer<'_> {
     #[inline]
     fn transmittance(&self, cos: f32) -> f32 {
         match self.rough {
-            Some(interface) => interface.transmittance(cos),
+            Some(interface) => RoughFresnel::transmittance([interface], cos),
             None => 1.0 - fresnel::dielectric(cos.min(1.0), self.eta).0,
         }
     }

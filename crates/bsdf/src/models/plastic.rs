@@ -45,7 +45,7 @@ impl Description {
     /// The model at a point.
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Plastic {
         Plastic {
-            coat: self.coating.resolve(site, self.internal),
+            coat: Coating::in_lanes(|_| (&self.coating, site), self.internal),
         }
     }
 }

@@ -8,16 +8,18 @@
 //! f_base (see [`crate::models::coat`] and [`crate::interface::rough_fresnel`]). Mitsuba's plugin of that name.
 
 use crate::interface::fresnel;
-use crate::interface::refraction::{half_way, reflect};
+use crate::interface::refraction::{half_vector, reflect};
 use crate::interface::rough_fresnel::RoughFresnel;
+use crate::lane_bsdf_at_point::{LaneBxdf, nothing};
 use crate::microfacet::Microfacet;
 use crate::microfacet::roughness;
 use crate::models::coat::{Coat, Coating};
 use crate::{Bxdf, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
+use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector, branch};
 use etalon_params::Params;
-use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{BsdfSample, Build, Textures, TransportMode};
+use etalon_sampling::warps::cosine_hemisphere;
+use etalon_transport::{BsdfSample, Build, LaneBsdfSample, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Parameters to test with (see [`crate::test_materials`]).
@@ -50,59 +52,90 @@ impl Description {
     }
 
     /// The model at a point.
+    #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> RoughPlastic<'_> {
+        Self::in_lanes(|_| (self, site))
+    }
+
+    /// The models at several points.
+    #[inline]
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+    ) -> RoughPlastic<'m, F> {
+        let coating = |i: usize| {
+            let (description, site) = at(i);
+            (&description.coating, site)
+        };
         RoughPlastic {
-            coat: self.coating.resolve(site, self.interface.internal),
-            microfacet: self.microfacet,
-            interface: &self.interface,
+            coat: Coating::in_lanes(coating, F::from_fn(|i| at(i).0.interface.internal)),
+            microfacet: Microfacet::of_lanes(|i| &at(i).0.microfacet),
+            interface: F::array(|i| &*at(i).0.interface),
         }
     }
 }
 
 /// A diffuse base under a rough coat.
 #[derive(Clone, Copy, Debug)]
-pub struct RoughPlastic<'a> {
+pub struct RoughPlastic<'a, F: Lane = f32> {
     /// The coat and the base.
-    pub coat: Coat,
+    pub coat: Coat<F>,
     /// The coat's distribution of normals.
-    pub microfacet: Microfacet,
+    pub microfacet: Microfacet<F>,
     /// Transmittance of the rough coating.
-    pub interface: &'a RoughFresnel,
+    pub interface: F::Array<&'a RoughFresnel>,
+}
+
+impl<F: Lane> RoughPlastic<'_, F> {
+    /// T at a cosine.
+    #[inline(always)]
+    fn transmitted(&self, cos: F) -> F {
+        RoughFresnel::transmittance(self.interface, cos)
+    }
+}
+
+impl<F: Lane> LaneBxdf<F> for RoughPlastic<'_, F> {
+    const CONTINUOUS: bool = true;
+    const TRANSMITS: bool = false;
+
+    #[inline(always)]
+    fn eval_lanes(&self, wo: F::Vector, wi: F::Vector) -> (F::Spectrum, F::Spectrum) {
+        let (has_normal, m, cos) = half_vector::<F>(wo, wi);
+        let reflects = wo.z().gt(F::ZERO) & wi.z().gt(F::ZERO) & has_normal;
+        if !reflects.any() {
+            return nothing::<F>();
+        }
+        let d = self.microfacet.d(m);
+        let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
+        let fresnel = fresnel::dielectric(cos, self.coat.eta).0;
+        let reflected = fresnel * d * shadowing / (wo.z() * 4.0);
+        let transmitted = self.transmitted(wo.z());
+        let value = self.coat.specular * reflected
+            + (self.coat).base(transmitted, self.transmitted(wi.z()), wi.z());
+        let specular = self.coat.specular_probability(transmitted);
+        let density = specular * self.microfacet.density(wo, m, d) / (cos * 4.0)
+            + (F::ONE - specular) * wi.z() * FRAC_1_PI;
+        reflects.select((value, F::Spectrum::uniform(density)), nothing::<F>())
+    }
+
+    #[inline(always)]
+    fn sample_lanes(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F> {
+        let transmitted = self.transmitted(wo.z());
+        let wi = branch!(
+            u_lobe.lt(self.coat.specular_probability(transmitted)),
+            reflect(wo, self.microfacet.sample(wo, u)),
+            cosine_hemisphere::<F>(u)
+        );
+        LaneBsdfSample::continuous(wi, self.eval_lanes(wo, wi), F::ONE)
+    }
 }
 
 impl Bxdf for RoughPlastic<'_> {
     fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
-        if !(wo.z > 0.0 && wi.z > 0.0) {
-            return (Vec4::ZERO, Vec4::ZERO);
-        }
-        let Some((m, cos)) = half_way(wo, wi) else {
-            return (Vec4::ZERO, Vec4::ZERO);
-        };
-        let d = self.microfacet.d(m);
-        let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
-        let reflected = fresnel::dielectric(cos, self.coat.eta).0 * d * shadowing / (4.0 * wo.z);
-        let transmitted = self.interface.transmittance(wo.z);
-        let value = self.coat.specular * reflected
-            + self
-                .coat
-                .base(transmitted, self.interface.transmittance(wi.z), wi.z);
-        let specular = self.coat.specular_probability(transmitted);
-        let density = specular * self.microfacet.density(wo, m, d) / (4.0 * cos)
-            + (1.0 - specular) * wi.z * FRAC_1_PI;
-        (value, Vec4::splat(density))
+        self.eval_lanes(wo, wi)
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
-        if !(wo.z > 0.0) {
-            return None;
-        }
-        let transmitted = self.interface.transmittance(wo.z);
-        let wi = if u_lobe < self.coat.specular_probability(transmitted) {
-            reflect(wo, self.microfacet.sample(wo, u.to_array()))
-        } else {
-            square_to_cosine_hemisphere(u)
-        };
-        self.continuous(wo, wi, 1.0, mode)
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, _: TransportMode) -> Option<BsdfSample> {
+        self.sample_lanes(wo, u_lobe, u.to_array()).only()
     }
 
     fn has_continuous(&self) -> bool {

@@ -55,7 +55,7 @@ impl<F: Lane> LaneConnection<F> {
 /// Several vertices of one kind, at which light is sampled.
 struct LaneVertex<'a, F: Lane, L: LaneShading> {
     lanes: &'a L,
-    bsdf: L::Bsdf<F>,
+    bsdf: L::Bsdf<'a, F>,
     vertices: LaneVertices<'a>,
     wo: F::Vector,
     from: LaneReceiver<F>,

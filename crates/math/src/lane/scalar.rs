@@ -1,6 +1,7 @@
 //! One lane: `f32`, `u32` and `bool`.
 
 use super::{Int, Lane, Mask, Select};
+use core::fmt::Debug;
 
 impl Lane for f32 {
     const WIDTH: usize = 1;
@@ -10,6 +11,7 @@ impl Lane for f32 {
     type Int = u32;
     type Vector = glam::Vec3;
     type Spectrum = glam::Vec4;
+    type Array<T: Copy + Debug> = [T; 1];
 
     #[inline(always)]
     fn splat(value: f32) -> Self {
@@ -18,6 +20,10 @@ impl Lane for f32 {
     #[inline(always)]
     fn from_fn(mut value: impl FnMut(usize) -> f32) -> Self {
         value(0)
+    }
+    #[inline(always)]
+    fn array<T: Copy + Debug>(mut item: impl FnMut(usize) -> T) -> [T; 1] {
+        [item(0)]
     }
     #[inline(always)]
     fn lane(self, index: usize) -> f32 {

@@ -1,6 +1,7 @@
 //! Eight and sixteen lanes, on the crate `wide`: sixteen are two registers of eight at x86-64-v3.
 
 use super::{Int, Lane, Mask, Select, Spectral, Spectrum, Vector, Vector3};
+use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Shl, Shr, Sub};
 
 /// Whether `wide` fuses its multiply-add: where it does not, the rounding would differ from `f32`'s.
@@ -105,6 +106,7 @@ macro_rules! simd_vector {
             type Int = $int;
             type Vector = Vector3<Self>;
             type Spectrum = Spectrum<Self>;
+            type Array<T: Copy + Debug> = [T; $width];
 
             #[inline(always)]
             fn splat(value: f32) -> Self {
@@ -113,6 +115,10 @@ macro_rules! simd_vector {
             #[inline(always)]
             fn from_fn(value: impl FnMut(usize) -> f32) -> Self {
                 Self(wide::$wide_float::new(core::array::from_fn(value)))
+            }
+            #[inline(always)]
+            fn array<T: Copy + Debug>(item: impl FnMut(usize) -> T) -> [T; $width] {
+                core::array::from_fn(item)
             }
             #[inline(always)]
             fn lane(self, index: usize) -> f32 {

@@ -118,6 +118,9 @@ fn lanes_and_memory<F: Lane>() {
     assert_eq!(stored[..F::WIDTH], numbers[1..]);
     assert_eq!(stored[F::WIDTH], 9.0);
 
+    let items = F::array(|i| numbers[i + 1]);
+    assert_eq!(items.as_ref(), &numbers[1..]);
+
     let reversed = F::Int::from_fn(|i| (F::WIDTH - i) as u32);
     let gathered = F::gather(&numbers, reversed);
     let mut indices = vec![0; F::WIDTH];

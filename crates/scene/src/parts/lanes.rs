@@ -9,7 +9,7 @@ use etalon_transport::{
 };
 
 impl LaneShading for Parts {
-    type Bsdf<F: Lane> = LaneBsdfAtPoint<F>;
+    type Bsdf<'a, F: Lane> = LaneBsdfAtPoint<'a, F>;
 
     #[inline]
     fn kind(&self, vertex: &SurfaceInteraction) -> Option<LaneKind> {
@@ -22,7 +22,7 @@ impl LaneShading for Parts {
         kind: LaneKind,
         vertices: LaneVertices<'_>,
         wo: F::Vector,
-    ) -> LaneBsdfAtPoint<F> {
+    ) -> LaneBsdfAtPoint<'_, F> {
         let material = |i: usize| &self.materials[vertices.vertices[i].material.0 as usize];
         LaneBsdfAtPoint::new(kind, material, &self.space.lookup, vertices, wo)
     }
