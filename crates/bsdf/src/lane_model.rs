@@ -4,7 +4,7 @@
 //! one lane, and add one line to the list at the end of this file. The test harness follows from it.
 
 use crate::lane_bsdf_at_point::LaneBxdf;
-use crate::models::{diffuse, roughconductor, roughplastic};
+use crate::models::{diffuse, roughconductor, roughdielectric, roughplastic};
 use crate::{Material, ShadingContext};
 use etalon_math::lane::Lane;
 use etalon_transport::{LaneBsdfSample, LaneKind, Textures};
@@ -102,4 +102,5 @@ lane_models! {
     Diffuse diffuse,
     RoughConductor roughconductor,
     RoughPlastic roughplastic <'a>,
+    RoughDielectric roughdielectric,
 }

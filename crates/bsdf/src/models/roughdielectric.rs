@@ -14,15 +14,16 @@
 //! its own density: all four lanes stay alive.
 
 use crate::interface::fresnel;
-use crate::interface::refraction::{half_way, reflect, refract};
+use crate::interface::refraction::{half_vector, reflect, refract};
 use crate::interface::relative_index::RelativeIndex;
+use crate::lane_bsdf_at_point::{LaneBxdf, nothing};
 use crate::microfacet::Microfacet;
 use crate::microfacet::roughness::Roughness;
 use crate::{Bxdf, ShadingContext};
-use etalon_math::Density;
+use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector, branch};
 use etalon_params::Params;
 use etalon_transport::{
-    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
+    BsdfSample, Build, LaneBsdfSample, SpectrumKind, TextureId, Textures, TransportMode,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -69,161 +70,218 @@ impl Description {
     }
 
     /// The model at a point.
+    #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> RoughDielectric {
+        Self::in_lanes(|_| (self, site))
+    }
+
+    /// The models at several points.
+    #[inline]
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+    ) -> RoughDielectric<F> {
+        let factor = |texture: fn(&Self) -> TextureId| {
+            F::Spectrum::of_lanes(|i| {
+                let (description, site) = at(i);
+                site.spectrum(texture(description))
+            })
+        };
+        let eta = |i: usize| {
+            let (description, site) = at(i);
+            description.eta.eval(site)
+        };
         RoughDielectric {
-            eta: self.eta.eval(site),
-            reflectance: site.spectrum(self.reflectance),
-            transmittance: site.spectrum(self.transmittance),
-            microfacet: self.roughness.resolve(site),
+            eta: F::Spectrum::of_lanes(eta),
+            reflectance: factor(|description| description.reflectance),
+            transmittance: factor(|description| description.transmittance),
+            microfacet: Roughness::in_lanes(|i| {
+                let (description, site) = at(i);
+                (&description.roughness, site)
+            }),
         }
     }
 }
 
 /// A rough interface.
 #[derive(Clone, Copy, Debug)]
-pub struct RoughDielectric {
-    /// Index inside over index outside, per lane.
-    pub eta: Vec4,
-    /// Factor of the reflected light, per lane.
-    pub reflectance: Vec4,
-    /// Factor of the refracted light, per lane.
-    pub transmittance: Vec4,
+pub struct RoughDielectric<F: Lane = f32> {
+    /// Index inside over index outside, per wavelength.
+    pub eta: F::Spectrum,
+    /// Factor of the reflected light, per wavelength.
+    pub reflectance: F::Spectrum,
+    /// Factor of the refracted light, per wavelength.
+    pub transmittance: F::Spectrum,
     /// The distribution of normals.
-    pub microfacet: Microfacet,
+    pub microfacet: Microfacet<F>,
 }
 
-impl RoughDielectric {
-    /// The relative index of the medium on the far side from `wo`, and the mirror that brings
+impl<F: Lane> RoughDielectric<F> {
+    /// The relative index of the medium on the far side from `wo`, and the factor of z that brings
     /// `wo` to the upper side (the distribution of normals is the same from below).
-    #[inline]
-    fn above(&self, wo: Vec3) -> (Vec4, Vec3) {
-        if wo.z > 0.0 {
-            (self.eta, Vec3::ONE)
-        } else {
-            (self.eta.recip(), Vec3::new(1.0, 1.0, -1.0))
-        }
+    #[inline(always)]
+    fn above(&self, wo: F::Vector) -> (F::Spectrum, F) {
+        let inverse = F::Spectrum::uniform(F::ONE) / self.eta;
+        let is_above = wo.z().gt(F::ZERO);
+        is_above.select((self.eta, F::ONE), (inverse, F::splat(-1.0)))
     }
 
     /// The distribution from which normals are drawn: without visible normals a little rougher,
     /// which bounds the weights (Walter et al. 2007, section 5.3).
-    #[inline]
-    fn sampled(&self, wo: Vec3) -> Microfacet {
-        if self.microfacet.sample_visible {
-            self.microfacet
-        } else {
-            self.microfacet.scaled(1.2 - 0.2 * wo.z.abs().sqrt())
-        }
+    #[inline(always)]
+    fn sampled(&self, wo: F::Vector) -> Microfacet<F> {
+        let rougher = F::splat(1.2) - wo.z().abs().sqrt() * 0.2;
+        let visible = self.microfacet.sample_visible;
+        self.microfacet.scaled(visible.select(F::ONE, rougher))
     }
 
     /// D and the density of a normal, when seen from `wo` above.
-    #[inline]
-    fn normal_density(&self, wo: Vec3, m: Vec3) -> (f32, f32) {
+    #[inline(always)]
+    fn normal_density(&self, wo: F::Vector, m: F::Vector) -> (F, F) {
         let d = self.microfacet.d(m);
-        if self.microfacet.sample_visible {
-            (d, self.microfacet.density(wo, m, d))
-        } else {
-            let sampled = self.sampled(wo);
-            (d, sampled.density(wo, m, sampled.d(m)))
-        }
+        let sampled = self.sampled(wo);
+        let sampled_d = branch!(self.microfacet.sample_visible, d, sampled.d(m));
+        (d, sampled.density(wo, m, sampled_d))
     }
 
     /// Reflection between two directions above.
-    fn reflection(&self, wo: Vec3, wi: Vec3, eta: Vec4) -> (Vec4, Vec4) {
-        let Some((m, cos)) = half_way(wo, wi) else {
-            return (Vec4::ZERO, Vec4::ZERO);
-        };
+    #[inline(always)]
+    fn reflection(
+        &self,
+        wo: F::Vector,
+        wi: F::Vector,
+        eta: F::Spectrum,
+    ) -> (F::Spectrum, F::Spectrum) {
+        let (has_normal, m, cos) = half_vector::<F>(wo, wi);
         let (d, density) = self.normal_density(wo, m);
         let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
         let fresnel = fresnel::dielectric_spectrum(cos, eta);
-        (
-            self.reflectance * fresnel * (d * shadowing / (4.0 * wo.z)),
-            fresnel * (density / (4.0 * cos)),
-        )
+        let value = self.reflectance * fresnel * (d * shadowing / (wo.z() * 4.0));
+        let density = fresnel * (density / (cos * 4.0));
+        has_normal.select((value, density), nothing::<F>())
     }
 
-    /// Transmission of one lane from `wo` above to `wi` below, without the factor τ.
-    fn transmission(&self, wo: Vec3, wi: Vec3, eta: f32, mode: TransportMode) -> (f32, f32) {
+    /// Transmission of one wavelength from `wo` above to `wi` below, without the factor τ.
+    #[inline(always)]
+    fn transmission(&self, wo: F::Vector, wi: F::Vector, eta: F, mode: TransportMode) -> [F; 2] {
         let half = wo + wi * eta;
-        let length = half.length();
-        if !(length > 1e-12) {
-            return (0.0, 0.0);
+        let length = half.norm();
+        let m = half.over(length.copysign(half.z()));
+        let (cos_o, cos_i) = (wo.dot_product(m), wi.dot_product(m));
+        // Not a microfacet seen from its back, nor one that does not separate the directions.
+        let separates = cos_o.gt(F::ZERO) & cos_i.lt(F::ZERO) & length.gt(F::splat(1e-12));
+        if !separates.any() {
+            return [F::ZERO; 2];
         }
-        let m = half / length.copysign(half.z);
-        let (cos_o, cos_i) = (wo.dot(m), wi.dot(m));
-        // A microfacet seen from its back, or one that does not separate the directions.
-        if !(cos_o > 0.0 && cos_i < 0.0) {
-            return (0.0, 0.0);
-        }
-        let through = 1.0 - fresnel::dielectric(cos_o, eta).0;
+        let through = F::ONE - fresnel::dielectric(cos_o, eta).0;
         let (d, density) = self.normal_density(wo, m);
         let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
         // |∂m/∂wi|, of which wo·m + η wi·m = ±|wo + η wi| (ibid., eq. 17).
         let jacobian = eta * eta * -cos_i / (length * length);
         let scale = match mode {
-            TransportMode::Radiance => 1.0 / (eta * eta),
-            TransportMode::Importance => 1.0,
+            TransportMode::Radiance => F::ONE / (eta * eta),
+            TransportMode::Importance => F::ONE,
         };
-        (
-            scale * through * d * shadowing * cos_o * jacobian / wo.z,
-            through * density * jacobian,
-        )
+        let value = scale * through * d * shadowing * cos_o * jacobian / wo.z();
+        separates.select([value, through * density * jacobian], [F::ZERO; 2])
     }
-}
 
-impl Bxdf for RoughDielectric {
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec4, Vec4) {
-        if wo.z == 0.0 || wi.z == 0.0 {
-            return (Vec4::ZERO, Vec4::ZERO);
-        }
-        let (eta, mirror) = self.above(wo);
-        let (wo, wi) = (wo * mirror, wi * mirror);
-        if wi.z > 0.0 {
-            return self.reflection(wo, wi, eta);
-        }
-        let (value, density) = if eta == Vec4::splat(eta.x) {
-            let (value, density) = self.transmission(wo, wi, eta.x, mode);
-            (Vec4::splat(value), Vec4::splat(density))
+    /// The same of every wavelength, with τ.
+    #[inline(always)]
+    fn refraction(
+        &self,
+        wo: F::Vector,
+        wi: F::Vector,
+        eta: F::Spectrum,
+        mode: TransportMode,
+    ) -> (F::Spectrum, F::Spectrum) {
+        let (value, density) = if eta.is_uniform().all() {
+            let [value, density] = self.transmission(wo, wi, eta.hero(), mode);
+            (F::Spectrum::uniform(value), F::Spectrum::uniform(density))
         } else {
-            let lanes = eta
-                .to_array()
-                .map(|eta| self.transmission(wo, wi, eta, mode));
+            let [a, b, c, d] = (eta.waves()).map(|eta| self.transmission(wo, wi, eta, mode));
             (
-                Vec4::from_array(lanes.map(|lane| lane.0)),
-                Vec4::from_array(lanes.map(|lane| lane.1)),
+                F::Spectrum::from_waves([a[0], b[0], c[0], d[0]]),
+                F::Spectrum::from_waves([a[1], b[1], c[1], d[1]]),
             )
         };
         (self.transmittance * value, density)
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
-        if wo.z == 0.0 {
-            return None;
-        }
-        let (eta, mirror) = self.above(wo);
-        let up = wo * mirror;
-        let m = self.sampled(up).sample(up, u.to_array());
-        let cos = up.dot(m);
-        if !(cos > 0.0) {
-            return None;
-        }
-        let (fresnel, cos_t) = fresnel::dielectric(cos, eta.x);
+    /// [`Bxdf::eval_and_density`] in lanes.
+    #[inline(always)]
+    fn eval_in(
+        &self,
+        wo: F::Vector,
+        wi: F::Vector,
+        mode: TransportMode,
+    ) -> (F::Spectrum, F::Spectrum) {
+        let in_surface = Lane::eq(wo.z(), F::ZERO) | Lane::eq(wi.z(), F::ZERO);
+        let (eta, side) = self.above(wo);
+        let (wo, wi) = (turned(wo, side), turned(wi, side));
+        let both = branch!(
+            wi.z().gt(F::ZERO),
+            self.reflection(wo, wi, eta),
+            self.refraction(wo, wi, eta, mode)
+        );
+        in_surface.select(nothing::<F>(), both)
+    }
+
+    /// [`Bxdf::sample`] in lanes.
+    #[inline(always)]
+    fn sample_in(
+        &self,
+        wo: F::Vector,
+        u_lobe: F,
+        u: [F; 2],
+        mode: TransportMode,
+    ) -> LaneBsdfSample<F> {
+        let (eta, side) = self.above(wo);
+        let (up, eta) = (turned(wo, side), eta.hero());
+        let m = self.sampled(up).sample(up, u);
+        let cos = up.dot_product(m);
+        let (fresnel, cos_t) = fresnel::dielectric(cos, eta);
+        let reflects = u_lobe.lt(fresnel);
+        let refracted = refract(up, m, eta, cos_t);
+        let (wi, eta) = reflects.select((reflect(up, m), F::ONE), (refracted, eta));
         // Light that would leave on the wrong side is lost.
-        let (wi, eta) = if u_lobe < fresnel {
-            let wi = reflect(up, m);
-            (wi.z > 0.0).then_some((wi, 1.0))
-        } else {
-            let wi = refract(up, m, eta.x, cos_t);
-            (wi.z < 0.0).then_some((wi, eta.x))
-        }?;
-        let wi = wi * mirror;
-        let (value, density) = self.eval_and_density(wo, wi, mode);
-        (density.x > 0.0).then_some(BsdfSample {
-            wi,
-            value,
-            chance: SamplePdf::Continuous(Density::per_lane(density)),
-            eta,
-            is_null: false,
-        })
+        let is_above = wi.z().gt(F::ZERO);
+        let leaves = (reflects & is_above) | (!reflects & wi.z().lt(F::ZERO));
+        let wi = turned(wi, side);
+        let mut sample = LaneBsdfSample::continuous(wi, self.eval_in(wo, wi, mode), eta);
+        sample.found = sample.found & leaves & cos.gt(F::ZERO);
+        sample
+    }
+}
+
+/// The direction with z times `side`.
+#[inline(always)]
+fn turned<F: Lane, V: Vector<F>>(w: V, side: F) -> V {
+    let [x, y, z] = w.xyz();
+    V::from_xyz(x, y, z * side)
+}
+
+impl<F: Lane> LaneBxdf<F> for RoughDielectric<F> {
+    const CONTINUOUS: bool = true;
+    const TRANSMITS: bool = true;
+
+    #[inline(always)]
+    fn eval_lanes(&self, wo: F::Vector, wi: F::Vector) -> (F::Spectrum, F::Spectrum) {
+        self.eval_in(wo, wi, TransportMode::Radiance)
+    }
+
+    #[inline(always)]
+    fn sample_lanes(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F> {
+        self.sample_in(wo, u_lobe, u, TransportMode::Radiance)
+    }
+}
+
+impl Bxdf for RoughDielectric {
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec4, Vec4) {
+        self.eval_in(wo, wi, mode)
+    }
+
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
+        self.sample_in(wo, u_lobe, u.to_array(), mode).only()
     }
 
     fn has_continuous(&self) -> bool {
