@@ -4,7 +4,9 @@
 //! one lane, and add one line to the list at the end of this file. The test harness follows from it.
 
 use crate::lane_bsdf_at_point::LaneBxdf;
-use crate::models::{diffuse, roughconductor, roughdielectric, roughplastic};
+use crate::models::{
+    conductor, dielectric, diffuse, roughconductor, roughdielectric, roughplastic,
+};
 use crate::{Material, ShadingContext};
 use etalon_math::lane::Lane;
 use etalon_transport::{LaneBsdfSample, LaneKind, Textures};
@@ -103,4 +105,6 @@ lane_models! {
     RoughConductor roughconductor,
     RoughPlastic roughplastic <'a>,
     RoughDielectric roughdielectric,
+    Conductor conductor,
+    Dielectric dielectric,
 }

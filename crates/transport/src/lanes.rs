@@ -176,6 +176,15 @@ impl<F: Lane> LaneBsdfSample<F> {
             eta,
         }
     }
+
+    /// Discrete directions with their values and probabilities. One is found where it has a probability at the wavelength that chose.
+    #[inline(always)]
+    pub fn discrete(wi: F::Vector, value_and_chance: (F::Spectrum, F::Spectrum), eta: F) -> Self {
+        Self {
+            is_delta: F::Mask::splat(true),
+            ..Self::continuous(wi, value_and_chance, eta)
+        }
+    }
 }
 
 impl LaneBsdfSample<f32> {

@@ -8,13 +8,17 @@ use crate::quadrature::gauss_legendre;
 pub use etalon_math::fresnel::dielectric;
 use etalon_math::lane::{Lane, Mask, Spectral};
 
-/// [`dielectric`] for an index per wavelength; only the reflectances.
+/// [`dielectric`] for an index per wavelength: the reflectances, and the refracted cosine of the wavelength that chooses.
 #[inline(always)]
-pub fn dielectric_spectrum<F: Lane>(cos: F, eta: F::Spectrum) -> F::Spectrum {
+pub fn dielectric_spectrum<F: Lane>(cos: F, eta: F::Spectrum) -> (F::Spectrum, F) {
+    let (hero, cos_t) = dielectric(cos, eta.hero());
     if eta.is_uniform().all() {
-        return F::Spectrum::uniform(dielectric(cos, eta.hero()).0);
+        return (F::Spectrum::uniform(hero), cos_t);
     }
-    eta.at_each(|eta| dielectric(cos, eta).0)
+    let [_, b, c, d] = eta.waves();
+    let reflectance = |eta| dielectric(cos, eta).0;
+    let waves = [hero, reflectance(b), reflectance(c), reflectance(d)];
+    (F::Spectrum::from_waves(waves), cos_t)
 }
 
 /// Reflectance of a conductor with relative complex index η + ik, per wavelength, for a direction

@@ -9,11 +9,12 @@
 use crate::interface::fresnel;
 use crate::interface::metal::Metal;
 use crate::interface::refraction::reflect;
+use crate::lane_bsdf_at_point::{LaneBxdf, nothing};
 use crate::{Bxdf, ShadingContext};
-use etalon_math::DeltaProbability;
+use etalon_math::lane::{Lane, Spectral, Vector};
 use etalon_params::Params;
 use etalon_transport::{
-    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
+    BsdfSample, Build, LaneBsdfSample, SpectrumKind, TextureId, Textures, TransportMode,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -46,43 +47,71 @@ impl Description {
     }
 
     /// The model at a point.
+    #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Conductor {
-        let [eta, k] = Metal::in_lanes::<f32, T>(|_| (&self.metal, site));
+        Self::in_lanes(|_| (self, site))
+    }
+
+    /// The models at several points.
+    #[inline]
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+    ) -> Conductor<F> {
+        let reflectance = |i: usize| {
+            let (description, site) = at(i);
+            site.spectrum(description.reflectance)
+        };
+        let [eta, k] = Metal::in_lanes::<F, T>(|i| {
+            let (description, site) = at(i);
+            (&description.metal, site)
+        });
         Conductor {
             eta,
             k,
-            reflectance: site.spectrum(self.reflectance),
+            reflectance: F::Spectrum::of_lanes(reflectance),
         }
     }
 }
 
 /// A coloured mirror.
 #[derive(Clone, Copy, Debug)]
-pub struct Conductor {
-    /// Real part of the index, per lane.
-    pub eta: Vec4,
-    /// Imaginary part of the index, per lane.
-    pub k: Vec4,
-    /// Factor of the reflectance, per lane.
-    pub reflectance: Vec4,
+pub struct Conductor<F: Lane = f32> {
+    /// Real part of the index, per wavelength.
+    pub eta: F::Spectrum,
+    /// Imaginary part of the index, per wavelength.
+    pub k: F::Spectrum,
+    /// Factor of the reflectance, per wavelength.
+    pub reflectance: F::Spectrum,
+}
+
+impl<F: Lane> LaneBxdf<F> for Conductor<F> {
+    const CONTINUOUS: bool = false;
+    const TRANSMITS: bool = false;
+
+    #[inline(always)]
+    fn eval_lanes(&self, _: F::Vector, _: F::Vector) -> (F::Spectrum, F::Spectrum) {
+        nothing::<F>()
+    }
+
+    #[inline(always)]
+    fn sample_lanes(&self, wo: F::Vector, _: F, _: [F; 2]) -> LaneBsdfSample<F> {
+        let wi = reflect(wo, F::Vector::broadcast(Vec3::Z));
+        let fresnel = fresnel::conductor(wo.z().min(F::ONE), self.eta, self.k);
+        let certain = F::Spectrum::uniform(F::ONE);
+        let mut sample =
+            LaneBsdfSample::discrete(wi, (self.reflectance * fresnel, certain), F::ONE);
+        sample.found = wo.z().gt(F::ZERO);
+        sample
+    }
 }
 
 impl Bxdf for Conductor {
-    fn eval_and_density(&self, _: Vec3, _: Vec3, _: TransportMode) -> (Vec4, Vec4) {
-        (Vec4::ZERO, Vec4::ZERO)
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
+        self.eval_lanes(wo, wi)
     }
 
-    fn sample(&self, wo: Vec3, _: f32, _: Vec2, _: TransportMode) -> Option<BsdfSample> {
-        if !(wo.z > 0.0) {
-            return None;
-        }
-        Some(BsdfSample {
-            wi: reflect(wo, Vec3::Z),
-            value: self.reflectance * fresnel::conductor(wo.z.min(1.0), self.eta, self.k),
-            chance: SamplePdf::Discrete(DeltaProbability::uniform(1.0)),
-            eta: 1.0,
-            is_null: false,
-        })
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, _: TransportMode) -> Option<BsdfSample> {
+        self.sample_lanes(wo, u_lobe, u.to_array()).only()
     }
 
     fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {

@@ -14,11 +14,12 @@
 use crate::interface::fresnel;
 use crate::interface::refraction::reflect;
 use crate::interface::relative_index::RelativeIndex;
+use crate::lane_bsdf_at_point::{LaneBxdf, nothing};
 use crate::{Bxdf, ShadingContext};
-use etalon_math::DeltaProbability;
+use etalon_math::lane::{Lane, Select, Spectral, Vector, branch};
 use etalon_params::Params;
 use etalon_transport::{
-    BsdfSample, Build, SamplePdf, SpectrumKind, TextureId, Textures, TransportMode,
+    BsdfSample, Build, LaneBsdfSample, SpectrumKind, TextureId, Textures, TransportMode,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -52,59 +53,154 @@ impl Description {
     }
 
     /// The model at a point.
+    #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Dielectric {
+        Self::in_lanes(|_| (self, site))
+    }
+
+    /// The models at several points.
+    #[inline]
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+    ) -> Dielectric<F> {
+        let factor = |texture: fn(&Self) -> TextureId| {
+            F::Spectrum::of_lanes(|i| {
+                let (description, site) = at(i);
+                site.spectrum(texture(description))
+            })
+        };
+        let eta = |i: usize| {
+            let (description, site) = at(i);
+            description.eta.eval(site)
+        };
         Dielectric {
-            eta: self.eta.eval(site),
-            reflectance: site.spectrum(self.reflectance),
-            transmittance: site.spectrum(self.transmittance),
-            mirrored: 0.0,
+            eta: F::Spectrum::of_lanes(eta),
+            reflectance: factor(|description| description.reflectance),
+            transmittance: factor(|description| description.transmittance),
+            mirrored: F::ZERO,
         }
     }
 }
 
 /// A smooth interface.
 #[derive(Clone, Copy, Debug)]
-pub struct Dielectric {
-    /// Index inside over index outside, per lane.
-    pub eta: Vec4,
-    /// Factor of the reflected light, per lane.
-    pub reflectance: Vec4,
-    /// Factor of the refracted light, per lane.
-    pub transmittance: Vec4,
+pub struct Dielectric<F: Lane = f32> {
+    /// Index inside over index outside, per wavelength.
+    pub eta: F::Spectrum,
+    /// Factor of the reflected light, per wavelength.
+    pub reflectance: F::Spectrum,
+    /// Factor of the refracted light, per wavelength.
+    pub transmittance: F::Spectrum,
     /// Share of light that is mirrored independently of Fresnel's equations; nonzero only in [`crate::models::mixture`].
-    pub mirrored: f32,
+    pub mirrored: F,
+}
+
+/// A discrete direction, its value and probability, and the relative index passed.
+type Direction<F> = (
+    <F as Lane>::Vector,
+    (<F as Lane>::Spectrum, <F as Lane>::Spectrum),
+    F,
+);
+
+/// What happens to light from a direction, whichever side it is on.
+struct Split<F: Lane> {
+    /// The relative index of the medium entered, per wavelength.
+    eta: F::Spectrum,
+    /// The share that is reflected, per wavelength.
+    reflected: F::Spectrum,
+    /// The cosine of the refracted direction, of the wavelength that chooses.
+    cos_t: F,
+}
+
+impl<F: Lane> Dielectric<F> {
+    #[inline(always)]
+    fn split(&self, wo: F::Vector) -> Split<F> {
+        let one = F::Spectrum::uniform(F::ONE);
+        let eta = wo.z().gt(F::ZERO).select(self.eta, one / self.eta);
+        let (fresnel, cos_t) = fresnel::dielectric_spectrum::<F>(wo.z().abs(), eta);
+        Split {
+            eta,
+            reflected: fresnel + (one - fresnel) * self.mirrored,
+            cos_t,
+        }
+    }
+
+    #[inline(always)]
+    fn reflected(&self, wo: F::Vector, split: &Split<F>) -> Direction<F> {
+        let wi = reflect(wo, F::Vector::broadcast(Vec3::Z));
+        let value = self.reflectance * split.reflected;
+        (wi, (value, split.reflected), F::ONE)
+    }
+
+    #[inline(always)]
+    fn refracted(&self, wo: F::Vector, split: &Split<F>, mode: TransportMode) -> Direction<F> {
+        let hero = split.eta.hero();
+        let together = (split.eta).at_each(|eta| Lane::eq(eta, hero).select(F::ONE, F::ZERO));
+        let transmitted = (F::Spectrum::uniform(F::ONE) - split.reflected) * together;
+        let scale = match mode {
+            TransportMode::Radiance => F::ONE / (hero * hero),
+            TransportMode::Importance => F::ONE,
+        };
+        let [x, y, z] = wo.xyz();
+        let wi = F::Vector::from_xyz(-x / hero, -y / hero, split.cos_t.copysign(-z)).normalized();
+        let value = self.transmittance * transmitted * scale;
+        (wi, (value, transmitted), hero)
+    }
+
+    /// [`Bxdf::sample`] in lanes.
+    #[inline(always)]
+    fn sample_in(&self, wo: F::Vector, u_lobe: F, mode: TransportMode) -> LaneBsdfSample<F> {
+        let split = self.split(wo);
+        let (wi, value_and_chance, eta) = branch!(
+            u_lobe.lt(split.reflected.hero()),
+            self.reflected(wo, &split),
+            self.refracted(wo, &split, mode)
+        );
+        let mut sample = LaneBsdfSample::discrete(wi, value_and_chance, eta);
+        // Not in the surface.
+        sample.found = sample.found & !Lane::eq(wo.z(), F::ZERO);
+        sample
+    }
+}
+
+impl<F: Lane> LaneBxdf<F> for Dielectric<F> {
+    const CONTINUOUS: bool = false;
+    const TRANSMITS: bool = true;
+
+    #[inline(always)]
+    fn eval_lanes(&self, _: F::Vector, _: F::Vector) -> (F::Spectrum, F::Spectrum) {
+        nothing::<F>()
+    }
+
+    #[inline(always)]
+    fn sample_lanes(&self, wo: F::Vector, u_lobe: F, _: [F; 2]) -> LaneBsdfSample<F> {
+        self.sample_in(wo, u_lobe, TransportMode::Radiance)
+    }
 }
 
 impl Bxdf for Dielectric {
-    fn eval_and_density(&self, _: Vec3, _: Vec3, _: TransportMode) -> (Vec4, Vec4) {
-        (Vec4::ZERO, Vec4::ZERO)
+    fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
+        self.eval_lanes(wo, wi)
     }
 
     fn sample(&self, wo: Vec3, u_lobe: f32, _: Vec2, mode: TransportMode) -> Option<BsdfSample> {
-        let (eta, fresnel) = self.interface(wo)?;
-        if u_lobe < fresnel.x {
-            Some(self.reflected(wo, fresnel))
-        } else {
-            self.refracted(wo, eta, fresnel, mode)
-        }
+        self.sample_in(wo, u_lobe, mode).only()
     }
 
     fn discrete(&self, wo: Vec3, index: u32, mode: TransportMode) -> Option<BsdfSample> {
-        let (eta, fresnel) = self.interface(wo)?;
-        match index {
-            0 => Some(self.reflected(wo, fresnel)),
-            // Other lanes may refract where lane 0 is reflected, so there always are two.
-            1 => Some(
-                (self.refracted(wo, eta, fresnel, mode)).unwrap_or(BsdfSample {
-                    wi: -wo,
-                    value: Vec4::ZERO,
-                    chance: SamplePdf::Discrete(DeltaProbability(Vec4::ZERO)),
-                    eta: 1.0,
-                    is_null: false,
-                }),
-            ),
-            _ => None,
+        if wo.z == 0.0 {
+            return None;
         }
+        let split = self.split(wo);
+        let (wi, value_and_chance, eta) = match index {
+            0 => self.reflected(wo, &split),
+            1 => self.refracted(wo, &split, mode),
+            _ => return None,
+        };
+        let mut sample = LaneBsdfSample::<f32>::discrete(wi, value_and_chance, eta);
+        // Other wavelengths may refract where the one that chooses is reflected, so there always are two.
+        sample.found = true;
+        sample.only()
     }
 
     fn has_continuous(&self) -> bool {
@@ -113,57 +209,5 @@ impl Bxdf for Dielectric {
 
     fn has_discrete(&self) -> bool {
         true
-    }
-}
-
-impl Dielectric {
-    /// The relative index of the medium entered, whichever side `wo` is on, and the share that is
-    /// reflected; `None` for a direction in the surface.
-    #[inline]
-    fn interface(&self, wo: Vec3) -> Option<(Vec4, Vec4)> {
-        let eta = if wo.z > 0.0 {
-            self.eta
-        } else {
-            self.eta.recip()
-        };
-        (wo.z != 0.0).then(|| {
-            let fresnel = fresnel::dielectric_spectrum(wo.z.abs(), eta);
-            (eta, fresnel + self.mirrored * (1.0 - fresnel))
-        })
-    }
-
-    #[inline]
-    fn reflected(&self, wo: Vec3, fresnel: Vec4) -> BsdfSample {
-        BsdfSample {
-            wi: reflect(wo, Vec3::Z),
-            value: self.reflectance * fresnel,
-            chance: SamplePdf::Discrete(DeltaProbability(fresnel)),
-            eta: 1.0,
-            is_null: false,
-        }
-    }
-
-    #[inline]
-    fn refracted(
-        &self,
-        wo: Vec3,
-        eta: Vec4,
-        fresnel: Vec4,
-        mode: TransportMode,
-    ) -> Option<BsdfSample> {
-        let (_, cos_t) = fresnel::dielectric(wo.z.abs(), eta.x);
-        let together = Vec4::select(eta.cmpeq(Vec4::splat(eta.x)), Vec4::ONE, Vec4::ZERO);
-        let transmitted = (1.0 - fresnel) * together;
-        let scale = match mode {
-            TransportMode::Radiance => 1.0 / (eta.x * eta.x),
-            TransportMode::Importance => 1.0,
-        };
-        (transmitted.x > 0.0).then(|| BsdfSample {
-            wi: Vec3::new(-wo.x / eta.x, -wo.y / eta.x, cos_t.copysign(-wo.z)).normalize(),
-            value: self.transmittance * transmitted * scale,
-            chance: SamplePdf::Discrete(DeltaProbability(transmitted)),
-            eta: eta.x,
-            is_null: false,
-        })
     }
 }

@@ -154,7 +154,7 @@ impl<F: Lane> RoughDielectric<F> {
         let (has_normal, m, cos) = half_vector::<F>(wo, wi);
         let (d, density) = self.normal_density(wo, m);
         let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
-        let fresnel = fresnel::dielectric_spectrum(cos, eta);
+        let fresnel = fresnel::dielectric_spectrum(cos, eta).0;
         let value = self.reflectance * fresnel * (d * shadowing / (wo.z() * 4.0));
         let density = fresnel * (density / (cos * 4.0));
         has_normal.select((value, density), nothing::<F>())

@@ -42,6 +42,14 @@ impl<M: Mask + Select<A> + Select<B>, A, B> Select<(A, B)> for M {
     }
 }
 
+impl<M: Mask + Select<A> + Select<B> + Select<C>, A, B, C> Select<(A, B, C)> for M {
+    #[inline(always)]
+    fn select(self, yes: (A, B, C), no: (A, B, C)) -> (A, B, C) {
+        let (a, b) = self.select((yes.0, yes.1), (no.0, no.1));
+        (a, b, self.select(yes.2, no.2))
+    }
+}
+
 impl<M: Mask + Select<T>, T> Select<[T; 2]> for M {
     #[inline(always)]
     fn select(self, [a, b]: [T; 2], [c, d]: [T; 2]) -> [T; 2] {
