@@ -5,7 +5,7 @@
 
 use crate::lane_bsdf_at_point::LaneBxdf;
 use crate::models::{
-    conductor, dielectric, diffuse, roughconductor, roughdielectric, roughplastic,
+    conductor, dielectric, diffuse, plastic, roughconductor, roughdielectric, roughplastic,
 };
 use crate::{Material, ShadingContext};
 use etalon_math::lane::Lane;
@@ -107,4 +107,5 @@ lane_models! {
     RoughDielectric roughdielectric,
     Conductor conductor,
     Dielectric dielectric,
+    Plastic plastic,
 }

@@ -10,13 +10,14 @@
 
 use crate::interface::fresnel;
 use crate::interface::refraction::reflect;
+use crate::lane_bsdf_at_point::{LaneBxdf, nothing};
 use crate::models::coat::{Coat, Coating};
 use crate::{Bxdf, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
-use etalon_math::{DeltaProbability, Density};
+use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector, branch};
 use etalon_params::Params;
-use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{BsdfSample, Build, SamplePdf, Textures, TransportMode};
+use etalon_sampling::warps::cosine_hemisphere;
+use etalon_transport::{BsdfSample, Build, LaneBsdfSample, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 
 /// Parameters to test with (see [`crate::test_materials`]).
@@ -43,77 +44,95 @@ impl Description {
     }
 
     /// The model at a point.
+    #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Plastic {
+        Self::in_lanes(|_| (self, site))
+    }
+
+    /// The models at several points.
+    #[inline]
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+    ) -> Plastic<F> {
+        let coating = |i: usize| {
+            let (description, site) = at(i);
+            (&description.coating, site)
+        };
         Plastic {
-            coat: Coating::in_lanes(|_| (&self.coating, site), self.internal),
+            coat: Coating::in_lanes(coating, F::from_fn(|i| at(i).0.internal)),
         }
     }
 }
 
 /// A diffuse base under a smooth coat.
 #[derive(Clone, Copy, Debug)]
-pub struct Plastic {
+pub struct Plastic<F: Lane = f32> {
     /// The coat and the base.
-    pub coat: Coat,
+    pub coat: Coat<F>,
 }
 
-impl Plastic {
-    #[inline]
-    fn transmitted(&self, cos: f32) -> f32 {
-        1.0 - fresnel::dielectric(cos.min(1.0), self.coat.eta).0
+impl<F: Lane> Plastic<F> {
+    #[inline(always)]
+    fn transmitted(&self, cos: F) -> F {
+        F::ONE - fresnel::dielectric(cos.min(F::ONE), self.coat.eta).0
     }
 
-    /// The coat's reflection, where it is chosen with the probability `specular`.
-    #[inline]
-    fn mirrored(&self, wo: Vec3, transmitted: f32, specular: f32) -> BsdfSample {
-        BsdfSample {
-            wi: reflect(wo, Vec3::Z),
-            value: self.coat.specular * (1.0 - transmitted),
-            chance: SamplePdf::Discrete(DeltaProbability::uniform(specular)),
-            eta: 1.0,
-            is_null: false,
+    /// The direction of the coat's reflection, and its value and probability where T is `transmitted`.
+    #[inline(always)]
+    fn mirrored(&self, wo: F::Vector, transmitted: F) -> (F::Vector, (F::Spectrum, F::Spectrum)) {
+        let wi = reflect(wo, F::Vector::broadcast(Vec3::Z));
+        let value = self.coat.specular * (F::ONE - transmitted);
+        let probability = self.coat.specular_probability(transmitted);
+        (wi, (value, F::Spectrum::uniform(probability)))
+    }
+}
+
+impl<F: Lane> LaneBxdf<F> for Plastic<F> {
+    const CONTINUOUS: bool = true;
+    const TRANSMITS: bool = false;
+
+    #[inline(always)]
+    fn eval_lanes(&self, wo: F::Vector, wi: F::Vector) -> (F::Spectrum, F::Spectrum) {
+        let in_front = wo.z().gt(F::ZERO) & wi.z().gt(F::ZERO);
+        if !in_front.any() {
+            return nothing::<F>();
         }
+        let transmitted = self.transmitted(wo.z());
+        let probability = F::ONE - self.coat.specular_probability(transmitted);
+        let value = (self.coat).base(transmitted, self.transmitted(wi.z()), wi.z());
+        let density = F::Spectrum::uniform(probability * wi.z() * FRAC_1_PI);
+        in_front.select((value, density), nothing::<F>())
+    }
+
+    #[inline(always)]
+    fn sample_lanes(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F> {
+        let transmitted = self.transmitted(wo.z());
+        let is_delta = u_lobe.lt(self.coat.specular_probability(transmitted));
+        let (wi, value_and_chance) = branch!(is_delta, self.mirrored(wo, transmitted), {
+            let wi = cosine_hemisphere::<F>(u);
+            (wi, self.eval_lanes(wo, wi))
+        });
+        let mut sample = LaneBsdfSample::continuous(wi, value_and_chance, F::ONE);
+        sample.is_delta = is_delta;
+        sample.found = sample.found & wo.z().gt(F::ZERO);
+        sample
     }
 }
 
 impl Bxdf for Plastic {
     fn eval_and_density(&self, wo: Vec3, wi: Vec3, _: TransportMode) -> (Vec4, Vec4) {
-        if !(wo.z > 0.0 && wi.z > 0.0) {
-            return (Vec4::ZERO, Vec4::ZERO);
-        }
-        let transmitted = self.transmitted(wo.z);
-        let probability = 1.0 - self.coat.specular_probability(transmitted);
-        (
-            self.coat.base(transmitted, self.transmitted(wi.z), wi.z),
-            Vec4::splat(probability * wi.z * FRAC_1_PI),
-        )
+        self.eval_lanes(wo, wi)
     }
 
-    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample> {
-        if !(wo.z > 0.0) {
-            return None;
-        }
-        let transmitted = self.transmitted(wo.z);
-        let specular = self.coat.specular_probability(transmitted);
-        if u_lobe < specular {
-            return Some(self.mirrored(wo, transmitted, specular));
-        }
-        let wi = square_to_cosine_hemisphere(u);
-        let (value, density) = self.eval_and_density(wo, wi, mode);
-        (density.x > 0.0).then_some(BsdfSample {
-            wi,
-            value,
-            chance: SamplePdf::Continuous(Density::per_lane(density)),
-            eta: 1.0,
-            is_null: false,
-        })
+    fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, _: TransportMode) -> Option<BsdfSample> {
+        self.sample_lanes(wo, u_lobe, u.to_array()).only()
     }
 
     fn discrete(&self, wo: Vec3, index: u32, _: TransportMode) -> Option<BsdfSample> {
-        (index == 0 && wo.z > 0.0).then(|| {
-            let transmitted = self.transmitted(wo.z);
-            self.mirrored(wo, transmitted, self.coat.specular_probability(transmitted))
-        })
+        let (wi, value_and_chance) = self.mirrored(wo, self.transmitted(wo.z));
+        let mut sample = LaneBsdfSample::<f32>::discrete(wi, value_and_chance, 1.0);
+        sample.found = index == 0 && wo.z > 0.0;
+        sample.only()
     }
 
     fn has_continuous(&self) -> bool {
