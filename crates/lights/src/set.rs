@@ -239,7 +239,7 @@ impl LightSet {
             let light = self.get(LightId(light));
             let one = self.are_one(light.is_background());
             match light
-                .sample_lanes(scene, (from, wavelengths), wanted, u)
+                .sample_lanes(scene, (from, wavelengths), lanes, u)
                 .filter(|_| !one)
             {
                 Some(found) => sample = LaneLightSample::choose(lanes, found, sample),

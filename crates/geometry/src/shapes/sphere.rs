@@ -128,8 +128,8 @@ impl Sphere {
         };
         if !cone.exists.all() {
             let inside = per_lane::<F, _>(|i| {
-                let at = self.sample_area(Vec2::from(u.map(|u| u.lane(i))))?;
-                (!cone.exists.lane(i)).then_some(at)
+                let at = || self.sample_area(Vec2::from(u.map(|u| u.lane(i))));
+                (!cone.exists.lane(i)).then(at).flatten()
             });
             let vector = |of: fn(&SurfacePoint) -> Vec3| {
                 F::Vector::of_lanes(|i| inside[i].as_ref().map_or(Vec3::ZERO, of))
