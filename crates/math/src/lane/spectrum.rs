@@ -112,6 +112,7 @@ pub trait Spectral<F: Lane>:
     }
 }
 
+/// Some operations have instructions of their own.
 impl Spectral<f32> for glam::Vec4 {
     #[inline(always)]
     fn from_waves(waves: [f32; 4]) -> Self {
@@ -120,6 +121,26 @@ impl Spectral<f32> for glam::Vec4 {
     #[inline(always)]
     fn waves(self) -> [f32; 4] {
         self.to_array()
+    }
+    #[inline(always)]
+    fn uniform(value: f32) -> Self {
+        Self::splat(value)
+    }
+    #[inline(always)]
+    fn broadcast(spectrum: glam::Vec4) -> Self {
+        spectrum
+    }
+    #[inline(always)]
+    fn of_lanes(spectrum: impl Fn(usize) -> glam::Vec4) -> Self {
+        spectrum(0)
+    }
+    #[inline(always)]
+    fn hero(self) -> f32 {
+        self.x
+    }
+    #[inline(always)]
+    fn is_uniform(self) -> bool {
+        self == Self::splat(self.x)
     }
     #[inline(always)]
     fn sum(self) -> f32 {
