@@ -14,8 +14,11 @@ mod linear;
 mod node;
 mod octree;
 mod pack;
+pub(crate) mod packet;
+mod triangle_test;
 pub(crate) mod visits;
-mod wide;
+pub(crate) mod wide;
+pub(crate) mod wide_packet;
 
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::TraversalRay;
@@ -257,6 +260,14 @@ impl Accelerator {
             Index::Linear(linear) => linear.occluded(probe, others, t_max),
             Index::Boxes(boxes) => boxes.occluded(probe, others, t_max),
             Index::Wide(wide) => wide.occluded(probe, others, t_max),
+        }
+    }
+
+    /// The tree, if packets of rays can go through it.
+    pub(crate) fn packets(&self) -> Option<&Wide> {
+        match &self.index {
+            Index::Wide(wide) if self.endless.is_empty() => Some(wide),
+            _ => None,
         }
     }
 

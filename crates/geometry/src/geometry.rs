@@ -78,7 +78,7 @@ impl Geometry {
 
     /// The primitives of the world that are not triangles, for accelerators.
     #[inline(always)]
-    fn others<'a, C>(&'a self, counter: &'a C) -> WorldOthers<'a, C> {
+    pub(crate) fn others<'a, C>(&'a self, counter: &'a C) -> WorldOthers<'a, C> {
         WorldOthers {
             geometry: self,
             counter,
@@ -105,27 +105,28 @@ impl Geometry {
         nearest.found.then(|| self.hit(&nearest))
     }
 
-    #[inline]
-    fn hit(&self, nearest: &ClosestHit) -> Hit {
-        let hit = |shape, primitive, instance| Hit {
+    #[inline(always)]
+    pub(crate) fn hit(&self, nearest: &ClosestHit) -> Hit {
+        let (shape, primitive, instance) = match self.world.scope.locate(nearest.primitive) {
+            (PrimitiveOwner::Shape(shape), primitive) => (shape, primitive, InstanceId::NONE),
+            (PrimitiveOwner::Instance(_), _) => self.placed(nearest.path, nearest.inner),
+        };
+        Hit {
             t: nearest.t,
             parameters: nearest.parameters,
             shape,
             primitive,
             instance,
             slot: nearest.slot,
-        };
-        match self.world.scope.locate(nearest.primitive) {
-            (PrimitiveOwner::Shape(shape), primitive) => hit(shape, primitive, InstanceId::NONE),
-            (PrimitiveOwner::Instance(_), _) => {
-                let path = InstanceId(nearest.path);
-                match self.innermost(path).scope.locate(nearest.inner) {
-                    (PrimitiveOwner::Shape(shape), primitive) => hit(shape, primitive, path),
-                    (PrimitiveOwner::Instance(_), _) => {
-                        unreachable!("a placement ends with shapes")
-                    }
-                }
-            }
+        }
+    }
+
+    /// The shape of a primitive of the innermost group of a placement, and the primitive's number there.
+    fn placed(&self, path: u32, inner: u32) -> (ShapeId, u32, InstanceId) {
+        let path = InstanceId(path);
+        match self.innermost(path).scope.locate(inner) {
+            (PrimitiveOwner::Shape(shape), primitive) => (shape, primitive, path),
+            (PrimitiveOwner::Instance(_), _) => unreachable!("a placement ends with shapes"),
         }
     }
 

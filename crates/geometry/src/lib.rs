@@ -9,6 +9,7 @@
 //! its instances share.
 
 pub mod accelerator;
+mod batch;
 pub mod builder;
 mod closest_hit;
 pub mod geometry;

@@ -3,6 +3,7 @@
 use crate::accelerator::{Accelerator, AcceleratorKind, Bounds, Primitives};
 use crate::shapes::Shape;
 use crate::traversal_ray::TraversalRay;
+use core::hint::select_unpredictable;
 use etalon_transport::{InstanceId, ShapeId};
 use glam::Vec3;
 
@@ -68,13 +69,25 @@ impl PrimitiveIndex {
         self.count
     }
 
+    /// The largest magnitude of a coordinate of anything that has an end.
+    #[inline]
+    pub(crate) fn extent(&self) -> f32 {
+        self.extent
+    }
+
     /// Whose primitive it is, and its number there.
     #[inline]
     pub(crate) fn locate(&self, primitive: u32) -> (PrimitiveOwner, u32) {
-        let member = match self.members.as_slice() {
-            [only] => *only,
-            members => members[members.partition_point(|m| m.first <= primitive) - 1],
-        };
+        let members = self.members.as_slice();
+        // The last one that does not begin after it, which branches could not predict.
+        let (mut at, mut count) = (0, members.len());
+        while count > 1 {
+            let half = count / 2;
+            let is_beyond = members[at + half].first <= primitive;
+            at = select_unpredictable(is_beyond, at + half, at);
+            count -= half;
+        }
+        let member = members[at];
         (member.thing, primitive - member.first)
     }
 

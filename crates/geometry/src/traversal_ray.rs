@@ -4,7 +4,10 @@ use etalon_transport::Departure;
 use glam::{Vec3, Vec3A};
 
 /// Rays and geometry are nearer than this (m) to the origin of space, or not met.
-const FARTHEST: f32 = 1e30;
+pub(crate) const FARTHEST: f32 = 1e30;
+
+/// No t, and no product of a coordinate and 1/d, is larger.
+pub(crate) const FINITE: f32 = 1e37;
 
 /// A ray with the quantities that intersection tests derive from it, in the space of one accelerator.
 ///
@@ -41,6 +44,22 @@ pub(crate) struct TraversalRay {
     pub(crate) time: f32,
 }
 
+/// The axis along which a direction is largest.
+#[inline(always)]
+pub(crate) fn largest_axis(direction: Vec3) -> usize {
+    let size = direction.abs();
+    // Without branches: they would not be predictable.
+    let beyond_x = !((size.x >= size.y) & (size.x >= size.z));
+    let beyond_y = !(size.y >= size.z);
+    usize::from(beyond_x) + usize::from(beyond_x & beyond_y)
+}
+
+/// The axes of a triangle test: two, then the largest.
+#[inline(always)]
+pub(crate) fn axes(largest: usize) -> [usize; 3] {
+    [(largest + 1) % 3, (largest + 2) % 3, largest]
+}
+
 impl TraversalRay {
     /// Prepares a ray for geometry whose coordinates are all at most `extent` in magnitude.
     ///
@@ -52,32 +71,26 @@ impl TraversalRay {
     #[inline(always)]
     pub(crate) fn new(origin: Vec3, direction: Vec3, extent: f32) -> Self {
         let d = direction.to_array();
-        let size = direction.abs();
-        let z = if size.x >= size.y && size.x >= size.z {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
-        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+        let [x, y, z] = axes(largest_axis(direction));
         let farthest = origin.abs().max_element();
         let reach = extent + farthest;
         let pad = 4.0 * f32::EPSILON * reach + f32::MIN_POSITIVE;
-        let largest = Vec3A::splat((1e37 / reach).min(1e37));
+        let largest = Vec3A::splat((FINITE / reach).min(FINITE));
         let wide = Vec3A::from(direction);
         let inverse = wide.recip().clamp(-largest, largest);
         let outward = Vec3A::splat(pad).copysign(wide);
         let from = Vec3A::from(origin);
         let negative = wide.is_negative_bitmask();
+        let sign = |axis: u32| (negative >> axis) as usize & 1;
+        let o = origin.to_array();
         let mut probe = Self {
             origin,
             direction,
             k: [x, y, z],
-            permuted: [origin[x], origin[y], origin[z]],
+            permuted: [o[x], o[y], o[z]],
             shear: (Vec3A::new(d[x], d[y], 1.0) / d[z]).to_array(),
-            near: 256.0 * f32::EPSILON * farthest / size[z],
-            sign: [0, 1, 2].map(|axis| (negative >> axis) as usize & 1),
+            near: 256.0 * f32::EPSILON * farthest / d[z].abs(),
+            sign: [sign(0), sign(1), sign(2)],
             inverse: inverse.to_array(),
             entered: ((from + outward) * inverse).to_array(),
             left: ((from - outward) * inverse).to_array(),

@@ -9,7 +9,13 @@ thread_local! {
 /// Counts one ray of the calling thread.
 #[inline]
 pub(crate) fn count() {
-    RAYS.with(|rays| rays.set(rays.get() + 1));
+    count_many(1);
+}
+
+/// Counts rays of the calling thread.
+#[inline]
+pub(crate) fn count_many(how_many: usize) {
+    RAYS.with(|rays| rays.set(rays.get() + how_many as u64));
 }
 
 /// The calling thread's count since it was last taken.

@@ -112,7 +112,7 @@ impl World for Scene {
         wavelengths: &Wavelengths,
         crossings: u32,
     ) -> Option<Transmission> {
-        if !self.parts.has_null && self.parts.space.media.bodies().is_none() {
+        if self.any_surface_is_opaque() {
             return self.unoccluded_transmission(ray, wavelengths);
         }
         self.transmission_past_null_surfaces(*ray, wavelengths, crossings)
@@ -124,6 +124,9 @@ impl World for Scene {
         queries: &[ShadowQuery],
         transmissions: &mut [Option<Transmission>],
     ) {
+        if self.any_surface_is_opaque() {
+            return self.unoccluded_transmissions(queries, transmissions);
+        }
         for (query, transmission) in queries.iter().zip(transmissions) {
             *transmission = self.transmittance(&query.ray, &query.wavelengths, query.crossings);
         }

@@ -29,6 +29,13 @@ impl Space {
         self.lookup.geometry.intersect(ray)
     }
 
+    /// The nearest surfaces along many rays: as many `hits` as `rays`.
+    #[inline]
+    pub(crate) fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        rays::count_many(rays.len());
+        self.lookup.geometry.intersect_batch(rays, hits);
+    }
+
     /// The surface that was hit, with the media on both sides.
     #[inline]
     pub(crate) fn vertex(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {

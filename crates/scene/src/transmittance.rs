@@ -3,7 +3,7 @@
 use crate::rays;
 use crate::scene::Scene;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Hit, Media, Medium, Ray, Surfaces, Transmission, World};
+use etalon_transport::{Bsdf, Hit, Media, Medium, Ray, ShadowQuery, Surfaces, Transmission, World};
 use glam::Vec4;
 
 impl Scene {
@@ -13,6 +13,12 @@ impl Scene {
         let material = self.parts.space.lookup.geometry.material_of(hit.shape);
         material.is_some_and(|id| !self.parts.materials[id.0 as usize].has_null())
             && self.parts.space.media.bodies().is_none()
+    }
+
+    /// Whether no light goes straight on at any surface.
+    #[inline]
+    pub(crate) fn any_surface_is_opaque(&self) -> bool {
+        !self.parts.has_null && self.parts.space.media.bodies().is_none()
     }
 
     /// A segment through what fills the space, past nothing: any surface is opaque.
@@ -26,6 +32,37 @@ impl Scene {
         if self.parts.space.lookup.geometry.occluded(ray) {
             return None;
         }
+        self.free_transmission(ray, wavelengths)
+    }
+
+    /// The same of many segments: as many `transmissions` as `queries`.
+    pub(crate) fn unoccluded_transmissions(
+        &self,
+        queries: &[ShadowQuery],
+        transmissions: &mut [Option<Transmission>],
+    ) {
+        const AT_ONCE: usize = 128;
+        rays::count_many(queries.len());
+        let chunks = queries
+            .chunks(AT_ONCE)
+            .zip(transmissions.chunks_mut(AT_ONCE));
+        for (queries, transmissions) in chunks {
+            let occluded = &mut [false; AT_ONCE][..queries.len()];
+            let geometry = &self.parts.space.lookup.geometry;
+            geometry.occluded_batch(queries, |query| &query.ray, occluded);
+            for ((query, transmission), occluded) in queries.iter().zip(transmissions).zip(occluded)
+            {
+                *transmission = match occluded {
+                    true => None,
+                    false => self.free_transmission(&query.ray, &query.wavelengths),
+                };
+            }
+        }
+    }
+
+    /// A segment through what fills the space, with nothing in the way.
+    #[inline]
+    fn free_transmission(&self, ray: &Ray, wavelengths: &Wavelengths) -> Option<Transmission> {
         let mut transmission = Transmission::FREE;
         self.fill(&mut transmission, ray, ray.t_max, wavelengths);
         (transmission.transmittance != Vec4::ZERO).then_some(transmission)

@@ -1,6 +1,7 @@
 //! A node of the wide tree: eight boxes, tested at once.
 
 use super::Bounds;
+use super::packet::RayPacket;
 use crate::traversal_ray::TraversalRay;
 use wide::f32x8;
 
@@ -50,6 +51,9 @@ impl Link {
     }
 }
 
+/// Covers the relative rounding of 1/d and of t itself.
+const OUTWARD: f32 = 1.0 + 4.0 * f32::EPSILON;
+
 /// Up to eight children with their boxes; unused lanes have boxes that nothing enters.
 ///
 /// It is 224 bytes, so that it takes four cache lines wherever it lies; aligned to one it would take as many, and be 256.
@@ -84,11 +88,17 @@ impl Node {
         Link(self.links[lane & (WIDTH - 1)])
     }
 
+    /// Number of children: their lanes come first. The root, number 0, is nobody's child.
+    #[inline(always)]
+    pub(super) fn children(&self) -> usize {
+        let unused = self.links.iter().position(|&link| link == 0);
+        unused.unwrap_or(WIDTH)
+    }
+
     /// The lanes whose boxes the ray enters before `t_max`, and where. Conservative, see
-    /// [`TraversalRay::new`]; the factor covers the relative rounding of 1/d and of t itself.
+    /// [`TraversalRay::new`].
     #[inline(always)]
     pub(super) fn entered(&self, probe: &TraversalRay, t_max: f32) -> (u32, f32x8) {
-        const OUTWARD: f32 = 1.0 + 4.0 * f32::EPSILON;
         let enter = |axis: usize| {
             self.planes[axis][probe.sign[axis] & 1].mul_sub(
                 f32x8::splat(probe.inverse[axis]),
@@ -109,5 +119,29 @@ impl Node {
             .fast_min(leave(2).fast_min(f32x8::splat(t_max)));
         let inside = near.simd_le(far * f32x8::splat(OUTWARD));
         (inside.to_bitmask(), near)
+    }
+
+    /// Where rays enter the box of one child before `t_max`, and which do; the same as [`Node::entered`].
+    #[inline(always)]
+    pub(super) fn entered_by(
+        &self,
+        child: usize,
+        rays: &RayPacket<'_>,
+        t_max: f32x8,
+    ) -> (f32x8, f32x8) {
+        let plane = |axis: usize, upper: usize| {
+            f32x8::splat(self.planes[axis][upper].as_array()[child & (WIDTH - 1)])
+                .mul_sub(rays.inverse[axis], rays.scaled[axis][upper])
+        };
+        let (x0, x1) = (plane(0, 0), plane(0, 1));
+        let (y0, y1) = (plane(1, 0), plane(1, 1));
+        let (z0, z1) = (plane(2, 0), plane(2, 1));
+        let near = (x0.fast_min(x1))
+            .fast_max(y0.fast_min(y1))
+            .fast_max(z0.fast_min(z1).fast_max(f32x8::ZERO));
+        let far = (x0.fast_max(x1))
+            .fast_min(y0.fast_max(y1))
+            .fast_min(z0.fast_max(z1).fast_min(t_max));
+        (near, near.simd_le(far * f32x8::splat(OUTWARD)))
     }
 }

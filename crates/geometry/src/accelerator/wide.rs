@@ -16,10 +16,10 @@ use core::hint::black_box;
 
 /// The tree.
 #[derive(Debug)]
-pub(crate) struct Wide(Packed);
+pub(crate) struct Wide(pub(super) Packed);
 
 /// Room on a ray's stack: a node takes one entry off and puts up to eight on it.
-const fn stack_for(depth: usize) -> usize {
+pub(super) const fn stack_for(depth: usize) -> usize {
     (WIDTH - 1) * depth + 1
 }
 /// Runs a search with a stack for the depth of the tree. A stack is cleared for every ray, so it should not be larger
@@ -36,9 +36,11 @@ macro_rules! with_stack {
     };
 }
 
+pub(super) use with_stack;
+
 /// A wide tree is not deeper than the binary one, except below primitives with equal boxes, of which
 /// there are fewer than 8¹¹.
-const MAX_DEPTH: usize = choices::MAX_DEPTH as usize + 12;
+pub(super) const MAX_DEPTH: usize = choices::MAX_DEPTH as usize + 12;
 
 impl Wide {
     pub(crate) fn build(primitives: &impl Primitives) -> Self {
@@ -86,6 +88,17 @@ impl Wide {
         nearest: &mut ClosestHit,
     ) {
         let Some(root) = self.0.root else { return };
+        self.find_nearest_below::<STACK>(root, probe, others, nearest);
+    }
+
+    #[inline(always)]
+    pub(super) fn find_nearest_below<const STACK: usize>(
+        &self,
+        root: Link,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        nearest: &mut ClosestHit,
+    ) {
         let counter = others.counter();
         // The black boxes below keep the compiler from spreading every number of the probe over
         // a vector before the first node: there are more of them than registers, and what would
@@ -181,6 +194,17 @@ impl Wide {
         let Some(root) = self.0.root else {
             return false;
         };
+        self.find_any_below::<STACK>(root, probe, others, t_max)
+    }
+
+    #[inline(always)]
+    pub(super) fn find_any_below<const STACK: usize>(
+        &self,
+        root: Link,
+        probe: &TraversalRay,
+        others: &impl CustomPrimitives,
+        t_max: f32,
+    ) -> bool {
         let counter = others.counter();
         let mut stack = [0u32; STACK];
         let mut top = 0;
@@ -223,6 +247,19 @@ impl Wide {
             }
             top -= 1;
             link = Link(stack[top]);
+        }
+    }
+
+    /// Whether it is a single node, or less, over triangles.
+    #[inline]
+    pub(crate) fn is_small(&self) -> bool {
+        match self.0.nodes.as_slice() {
+            [] => !matches!(self.0.root.map(Link::target), Some(Target::Other(_))),
+            [node] => {
+                let mut links = (0..node.children()).map(|child| node.link(child));
+                links.all(|link| matches!(link.target(), Target::Block(_)))
+            }
+            _ => false,
         }
     }
 

@@ -71,7 +71,7 @@ pub(crate) fn agree(all: &[Geometry], ray: &Ray) -> bool {
 }
 
 /// Random triangles; every fifth without area, every seventh a copy of the one before.
-fn soup(seed: u64, count: usize, size: f32, scale: f32, center: Vec3) -> Shape {
+pub(crate) fn soup(seed: u64, count: usize, size: f32, scale: f32, center: Vec3) -> Shape {
     let mut random = Random(seed);
     let mut positions: Vec<Vec3> = Vec::new();
     for i in 0..count {
@@ -129,7 +129,7 @@ proptest! {
 }
 
 /// A square grid of triangles in each of three planes, with all coordinates small integers.
-fn lattice() -> Shape {
+pub(crate) fn lattice() -> Shape {
     let mut positions = Vec::new();
     let mut triangles = Vec::new();
     for plane in 0..3 {
@@ -274,7 +274,7 @@ fn power_of_ten(n: u32) -> f32 {
 }
 
 /// Everything at once: smooth shapes, meshes, instances, overlapping.
-fn mixture(builder: &mut GeometryBuilder) {
+pub(crate) fn mixture(builder: &mut GeometryBuilder) {
     let mut random = Random(11);
     for i in 0..6 {
         for (_, shape) in convex_shapes(random.point() * 4.0, f64::from(i), 0.3 + random.number()) {

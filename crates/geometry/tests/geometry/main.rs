@@ -13,6 +13,7 @@ mod grids;
 mod instances;
 mod nets;
 mod normals;
+mod packets;
 mod plane;
 mod reintersection;
 mod sampling;

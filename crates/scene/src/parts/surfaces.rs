@@ -24,9 +24,7 @@ impl Surfaces for Parts {
 
     #[inline]
     fn intersect_batch(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        for (ray, hit) in rays.iter().zip(hits) {
-            *hit = self.intersect(ray);
-        }
+        self.space.intersect_batch(rays, hits);
     }
 
     #[inline]
