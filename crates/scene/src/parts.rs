@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// The parts that scenes with different sensors share.
 pub struct Parts {
     pub(crate) camera: AnyCamera,
-    /// Whether vertices are shaded in vector lanes: without media.
+    /// Whether vertices are shaded in vector lanes: where no medium shines or has a diffusion profile.
     pub(crate) in_lanes: bool,
     pub(crate) space: Space,
     pub(crate) materials: Vec<Material>,

@@ -11,6 +11,7 @@ use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{Sensor, Wavelengths};
+use etalon_subsurface::Homogeneous;
 use etalon_transport::{
     Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, LightVariety,
     MediumId, Ray, ShadowQuery, SurfaceInteraction, Transmission, World,
@@ -46,7 +47,8 @@ impl Scene {
             shining = MediumLights::find(&space, outermost, lights.total_power());
             rays::take();
         }
-        let in_lanes = !space.has_media;
+        let diffuses = (space.media).any_homogeneous(Homogeneous::diffuses);
+        let in_lanes = shining.is_none() && !diffuses;
         let parts = Parts {
             camera,
             in_lanes,

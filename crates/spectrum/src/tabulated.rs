@@ -2,7 +2,7 @@
 //! ([`Irregular`]).
 
 use crate::{SpectrumError, error};
-use glam::{IVec4, Vec4};
+use glam::Vec4;
 
 /// A tabulated spectrum beyond its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -13,6 +13,9 @@ pub enum Outside {
     /// The value at the nearer end, as a refractive index is.
     Hold,
 }
+
+/// 2²³: single precision has no fractions beyond.
+const TWO_TO_23: f32 = 8_388_608.0;
 
 /// Values at equally spaced wavelengths.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,12 +54,14 @@ impl Regular {
     pub fn eval(&self, lambda: Vec4) -> Vec4 {
         let inside = lambda.cmpge(Vec4::splat(self.min)) & lambda.cmple(Vec4::splat(self.max));
         let t = (lambda - self.min) * self.rate;
-        // A wavelength outside saturates to some entry, which `inside` discards.
-        let last = self.values.len() as i32 - 2;
-        let index = t.as_ivec4().clamp(IVec4::ZERO, IVec4::splat(last));
-        let fraction = t - index.as_vec4();
-        let pair = |i: i32| &self.values[i as usize..][..2];
-        let [a, b, c, d] = index.to_array().map(pair);
+        // A wavelength outside gets some entry, which `inside` discards.
+        let last = (self.values.len() - 2) as f32;
+        let place = t.max(Vec4::ZERO).min(Vec4::splat(last)).floor();
+        let fraction = t - place;
+        // The bits of 2²³ + i end with those of i: faster than four conversions.
+        let sums = (place + TWO_TO_23).to_array();
+        let pair = |sum: f32| &self.values[(sum.to_bits() & 0x7f_ffff) as usize..][..2];
+        let [a, b, c, d] = sums.map(pair);
         let low = Vec4::new(a[0], b[0], c[0], d[0]);
         let high = Vec4::new(a[1], b[1], c[1], d[1]);
         Vec4::select(inside, low + (high - low) * fraction, Vec4::ZERO)

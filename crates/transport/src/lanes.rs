@@ -235,7 +235,7 @@ pub trait LaneShading: Sync {
     where
         Self: 'a;
 
-    /// The kind of a vertex; `None` if it must be shaded by itself.
+    /// The kind of a vertex, where light stays in one medium; `None` if it must be shaded by itself.
     fn kind(&self, vertex: &SurfaceInteraction) -> Option<LaneKind>;
 
     /// The scattering models of vertices of one kind.

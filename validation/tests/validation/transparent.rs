@@ -169,18 +169,37 @@ const LANES: &str = r#"<scene version="3.0.0">
     <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="-90"/><scale value="2"/><translate y="1"/></transform>
         <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.2, 0.7, 0.3"/></bsdf>
             <bsdf type="diffuse"><rgb name="reflectance" value="0.9, 0.2, 0.3"/></bsdf></bsdf></shape>
-    <shape type="sphere"><point name="center" value="0.3, 0, 0.4"/><float name="radius" value="0.4"/><bsdf type="dielectric"/></shape>
+    <shape type="sphere"><point name="center" value="0.3, 0, 0.4"/><float name="radius" value="0.4"/>BSDF</shape>
     <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="180"/><scale value="0.5"/><translate z="1.2"/></transform>
         <emitter type="area"/></shape>
 </scene>"#;
+
+/// What the ball is made of: every model that is written for lanes; and with media, in the ball and all around.
+const BALLS: [&str; 12] = [
+    r#"<bsdf type="diffuse"/>"#,
+    r#"<bsdf type="dielectric"/>"#,
+    r#"<bsdf type="dielectric"><string name="int_ior" value="cauchy:1.4,0.05"/></bsdf>"#,
+    r#"<bsdf type="roughdielectric"><float name="alpha" value="0.3"/></bsdf>"#,
+    r#"<bsdf type="roughdielectric"><string name="distribution" value="ggx"/><string name="int_ior" value="cauchy:1.4,0.05"/></bsdf>"#,
+    r#"<bsdf type="conductor"><string name="material" value="Cu"/></bsdf>"#,
+    r#"<bsdf type="roughconductor"><float name="alpha" value="0.2"/></bsdf>"#,
+    r#"<bsdf type="twosided"><bsdf type="roughconductor"><string name="distribution" value="ggx"/></bsdf></bsdf>"#,
+    r#"<bsdf type="plastic"/>"#,
+    r#"<bsdf type="roughplastic"/>"#,
+    r#"<bsdf type="dielectric"/><medium type="homogeneous" name="interior"><float name="sigma_t" value="3"/></medium>"#,
+    r#"<bsdf type="diffuse"/></shape><shape type="sphere"><float name="radius" value="20"/><bsdf type="null"/>
+        <medium type="homogeneous" name="interior"><float name="sigma_t" value="0.3"/></medium>"#,
+];
 
 /// Mutants rejected: candidates of one lane that are chosen by another's number; Russian roulette that is not weighed.
 #[test]
 fn vertices_shaded_in_lanes_are_what_they_are_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("room.xml");
-    for candidates in ["1", "3"] {
-        let scene = LANES.replace("CANDIDATES", candidates);
+    for (candidates, ball) in ["1", "3"].into_iter().cycle().zip(BALLS) {
+        let scene = LANES
+            .replace("CANDIDATES", candidates)
+            .replace("BSDF", ball);
         std::fs::write(&path, scene).expect("a writable folder");
         let loaded = load(&path, &LoadOptions::default()).expect("a scene");
         assert!(loaded.compiled.scene.lanes().is_some());
@@ -193,6 +212,6 @@ fn vertices_shaded_in_lanes_are_what_they_are_alone() {
             sampler: SamplerKind::Sobol,
         };
         let alike = renders_alike(&loaded, &plan).expect("a picture");
-        assert!(alike, "{candidates} candidates");
+        assert!(alike, "{candidates} candidates, {ball}");
     }
 }

@@ -16,7 +16,8 @@ use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::lane::{F32x8, Lane, MOST_LANES, Mask, Select, Spectral, Vector, per_lane};
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, ShadowQuery, World,
+    LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, MediumInterface, ShadowQuery,
+    World,
 };
 use glam::Vec4;
 
@@ -189,9 +190,10 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         let mut groups: [ArrayVec<usize, { Lanes::WIDTH }>; LaneKind::COUNT] =
             core::array::from_fn(|_| ArrayVec::new());
         for place in 0..self.arrived.len() {
-            let Arrived { path, vertex, .. } = &self.arrived[place];
+            let Arrived { path, ray, vertex } = &self.arrived[place];
             let last = self.paths[*path].is_last(config);
-            match lanes.kind(vertex).filter(|_| !last) {
+            let stays = vertex.media == MediumInterface::within(ray.medium);
+            match lanes.kind(vertex).filter(|_| stays && !last) {
                 None => alone(self, place),
                 Some(kind) => {
                     let group = &mut groups[usize::from(kind.0)];

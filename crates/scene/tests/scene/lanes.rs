@@ -94,11 +94,14 @@ fn lanes_sample_lights_as_one_by_one() {
     }
 }
 
-/// Rays that must track media.
+/// Where light sampling chooses among media too, or a path comes out elsewhere than it went in.
 #[test]
-fn scenes_with_media_have_no_lanes() {
-    let medium = "<medium type=\"homogeneous\" name=\"interior\"/>";
-    let fog = format!("<shape type=\"sphere\">{medium}</shape>{LAMP}");
-    assert!(scene(&fog).lanes().is_none());
-    assert!(scene(LAMP).lanes().is_some());
+fn scenes_with_shining_media_or_profiles_have_no_lanes() {
+    let ball = |inside: &str| format!("<shape type=\"sphere\">{inside}</shape>{LAMP}");
+    let fog = "<medium type=\"homogeneous\" name=\"interior\"/>";
+    let fire = "<medium type=\"homogeneous\" name=\"interior\"><float name=\"emission\" value=\"1\"/></medium>";
+    let profile = "<subsurface type=\"dipole\"/>";
+    for (inside, expected) in [("", true), (fog, true), (fire, false), (profile, false)] {
+        assert_eq!(scene(&ball(inside)).lanes().is_some(), expected, "{inside}");
+    }
 }
