@@ -15,7 +15,7 @@ mod node;
 mod octree;
 mod pack;
 pub(crate) mod packet;
-mod triangle_test;
+mod tested_rays;
 pub(crate) mod visits;
 pub(crate) mod wide;
 pub(crate) mod wide_packet;

@@ -13,10 +13,10 @@
 //! | the box around a mesh of 1280 | 55 → 33 | 103 → 112 | 75 → 61 |
 //! | … of 20,480 | 70 → 53 | 138 → 153 | 109 → 104 |
 //! | a mesh of 1.3 million | 107 → 92 | 366 → 367 | 396 → 350 |
-//! | 2000 spheres in a box | 137 → 113 | 270 → 331 | 209 → 202 |
+//! | 2000 spheres in a box | 137 → 113 | | 209 → 202 |
 //!
 //! So they are for trees of triangles with one node, and for rays with similar directions in others. Sorting rays also
-//! by the sign of their largest component, or where they fit no packet by octants, gained nothing.
+//! by the sign of their largest component gained nothing: more packets were not full.
 
 use crate::accelerator::block::LANES;
 use crate::accelerator::packet::{PacketHits, RayPacket};

@@ -1,7 +1,7 @@
 //! Up to eight triangles, intersected at once.
 
 use super::packet::{PacketHits, RayPacket};
-use super::triangle_test::{self, Meetings, TestedRays};
+use super::tested_rays::{self, Meetings, TestedRays};
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::TraversalRay;
 use glam::Vec3;
@@ -65,7 +65,7 @@ impl Block {
         let [kx, ky, kz] = k;
         let k = [kx.min(2), ky.min(2), kz.min(2)];
         let corner = |block: &Self, i: usize, j: usize| block.corners[i][k[j]];
-        triangle_test::meet(self, corner, ray, f32x8::splat(t_max))
+        tested_rays::meet(self, corner, ray, f32x8::splat(t_max))
     }
 
     /// Updates `nearest` with the nearest triangle that the ray hits; this is block number `index`.
@@ -124,7 +124,7 @@ impl Block {
         let corner = |block: &Self, i: usize, j: usize| {
             f32x8::splat(block.corners[i][k[j]].as_array()[lane])
         };
-        triangle_test::meet(self, corner, &rays.tested, t_max)
+        tested_rays::meet(self, corner, &rays.tested, t_max)
     }
 
     /// Updates `nearest` with the nearest triangles that the rays hit; this is block number `index`.

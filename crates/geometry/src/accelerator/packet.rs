@@ -1,7 +1,7 @@
 //! Eight rays that go through a tree together, and what each has hit so far.
 
 use super::block::LANES;
-use super::triangle_test::{Meetings, TestedRays};
+use super::tested_rays::{Meetings, TestedRays};
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::{self, FARTHEST, FINITE, TraversalRay};
 use etalon_transport::Ray;
