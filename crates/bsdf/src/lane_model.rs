@@ -5,7 +5,8 @@
 
 use crate::lane_bsdf_at_point::LaneBxdf;
 use crate::models::{
-    conductor, dielectric, diffuse, plastic, roughconductor, roughdielectric, roughplastic,
+    conductor, dielectric, diffuse, plastic, principled, roughconductor, roughdielectric,
+    roughplastic,
 };
 use crate::{Material, ShadingContext};
 use etalon_math::lane::Lane;
@@ -73,6 +74,8 @@ macro_rules! lane_models {
             /// The kind of its points; `None` if they must be shaded one by one.
             pub fn lane_kind(&self) -> Option<LaneKind> {
                 match self {
+                    // Whether light passes must be the same for all of a kind.
+                    Self::Principled(description) if description.transmits() => None,
                     $(Self::$model(_) => Some(LaneKind(LaneIndex::$model as u8)),)*
                     Self::TwoSided(sides) => sides.lane_kind(),
                     _ => None,
@@ -108,4 +111,5 @@ lane_models! {
     Conductor conductor,
     Dielectric dielectric,
     Plastic plastic,
+    Principled principled,
 }

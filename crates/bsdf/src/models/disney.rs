@@ -12,28 +12,28 @@
 //! ```
 
 use crate::ShadingContext;
+use crate::interface::refraction::half_vector;
 use crate::microfacet::{Kind, Microfacet};
 use core::f32::consts::FRAC_1_PI;
+use etalon_math::lane::{Lane, Select, Vector, branch};
+use etalon_params::{Params, Value};
 use etalon_transport::{TextureId, Textures};
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec4};
 
 /// (1 − c)⁵, Schlick's weight (C. Schlick 1994, eq. 24).
-#[inline]
-pub fn schlick(cos: f32) -> f32 {
-    let x = (1.0 - cos).clamp(0.0, 1.0);
+#[inline(always)]
+pub fn schlick<F: Lane>(cos: F) -> F {
+    let x = (F::ONE - cos).clamp(0.0, 1.0);
     let x2 = x * x;
     x2 * x2 * x
 }
 
 /// Schlick's weight for a cosine outside of an interface of relative index `eta`: where it is entered from the
 /// denser side, at the angle of refraction.
-#[inline]
-pub fn schlick_entering(cos: f32, eta: f32) -> f32 {
-    if eta > 1.0 {
-        return schlick(cos);
-    }
-    let cos_t2 = 1.0 - (1.0 - cos * cos) / (eta * eta);
-    schlick(cos_t2.max(0.0).sqrt())
+#[inline(always)]
+pub fn schlick_entering<F: Lane>(cos: F, eta: F) -> F {
+    let refracted = || (F::ONE - (F::ONE - cos * cos) / (eta * eta)).safe_sqrt();
+    schlick(branch!(eta.gt(F::ONE), cos, refracted()))
 }
 
 /// The distribution of normals: α = roughness² over and times √(1 − 0.9 · anisotropic) along x and y, 0.001 at least.
@@ -61,49 +61,69 @@ pub fn tint<T: Textures>(
     }
 }
 
+/// The sampling rate of a lobe, relative to its energy.
+pub(crate) fn sampling_rate(params: &Params<'_>, name: &str) -> f32 {
+    let accepted = "a finite number, 0 or more";
+    params.float_where(name, 1.0, accepted, |rate| rate >= 0.0 && rate.is_finite()) as f32
+}
+
+/// Whether a share is given, and not the number 0.
+pub(crate) fn is_used(params: &Params<'_>, name: &str) -> bool {
+    params
+        .property(name)
+        .is_some_and(|property| match property.value {
+            Value::Float(number) => number != 0.0,
+            Value::Integer(number) => number != 0,
+            _ => true,
+        })
+}
+
 /// ((η − 1)/(η + 1))², the reflectance at normal incidence.
-#[inline]
-pub fn normal_reflectance(eta: f32) -> f32 {
+#[inline(always)]
+pub fn normal_reflectance<F: Lane>(eta: F) -> F {
     let root = (eta - 1.0) / (eta + 1.0);
     root * root
 }
 
 /// The diffuse base and its sheen.
 #[derive(Clone, Copy, Debug)]
-pub struct DisneyBase {
-    /// The colour with all factors, per lane.
-    pub colour: Vec4,
-    /// The sheen's colour with all factors, per lane.
-    pub sheen: Vec4,
+pub struct DisneyBase<F: Lane = f32> {
+    /// The colour with all factors, per wavelength.
+    pub colour: F::Spectrum,
+    /// The sheen's colour with all factors, per wavelength.
+    pub sheen: F::Spectrum,
     /// Roughness, 0 to 1.
-    pub roughness: f32,
+    pub roughness: F,
     /// The share of f_ss.
-    pub flatness: f32,
+    pub flatness: F,
 }
 
-impl DisneyBase {
+impl<F: Lane> DisneyBase<F> {
     /// The sheen's colour, `amount` times white or a tint of luminance one.
-    #[inline]
-    pub fn sheen_colour(amount: f32, tinted: f32, tint: Vec4) -> Vec4 {
-        amount * Vec4::ONE.lerp(tint, tinted)
+    #[inline(always)]
+    pub fn sheen_colour(amount: F, tinted: F, tint: F::Spectrum) -> F::Spectrum {
+        (tint * tinted + (F::ONE - tinted)) * amount
     }
 
     /// f·cos θi of two directions above.
-    #[inline]
-    pub fn eval(&self, wo: Vec3, wi: Vec3) -> Vec4 {
-        let cos_d = (wo + wi).normalize_or_zero().dot(wi);
-        let (fo, fi) = (schlick(wo.z), schlick(wi.z));
-        let retro = 2.0 * self.roughness * cos_d * cos_d;
+    #[inline(always)]
+    pub fn eval(&self, wo: F::Vector, wi: F::Vector) -> F::Spectrum {
+        let (has_normal, _, cos) = half_vector::<F>(wo, wi);
+        let cos_d = has_normal.select(cos, F::ZERO);
+        let (fo, fi) = (schlick(wo.z()), schlick(wi.z()));
+        let retro = self.roughness * 2.0 * cos_d * cos_d;
         let diffuse =
-            (1.0 - 0.5 * fi) * (1.0 - 0.5 * fo) + retro * (fo + fi + fo * fi * (retro - 1.0));
-        let flattened = if self.flatness > 0.0 {
-            let toward = |f: f32| 1.0 + f * (0.5 * retro - 1.0);
-            let s = toward(fo) * toward(fi);
-            let flat = 1.25 * (s * (1.0 / (wo.z + wi.z) - 0.5) + 0.5);
-            diffuse + self.flatness * (flat - diffuse)
-        } else {
+            (F::ONE - fi * 0.5) * (F::ONE - fo * 0.5) + retro * (fo + fi + fo * fi * (retro - 1.0));
+        let flattened = branch!(
+            self.flatness.gt(F::ZERO),
+            {
+                let half = retro * 0.5 - 1.0;
+                let s = (fo * half + 1.0) * (fi * half + 1.0);
+                let flat = (s * (F::ONE / (wo.z() + wi.z()) - 0.5) + 0.5) * 1.25;
+                diffuse + self.flatness * (flat - diffuse)
+            },
             diffuse
-        };
-        (self.colour * (flattened * FRAC_1_PI) + self.sheen * schlick(cos_d.abs())) * wi.z
+        );
+        (self.colour * (flattened * FRAC_1_PI) + self.sheen * schlick(cos_d)) * wi.z()
     }
 }

@@ -18,19 +18,17 @@
 //! interface is seen. Directions are chosen by the base, the clear coat, or a visible normal, where reflection has the
 //! probability 1 − b (1 − F).
 
+mod model;
+
+pub use model::Principled;
+
 use crate::inputs::inputs;
-use crate::interface::fresnel;
-use crate::interface::refraction::{half_way, reflect, refract};
-use crate::microfacet::{Kind, Microfacet};
-use crate::models::disney::{self, DisneyBase, schlick_entering};
-use crate::models::roughdielectric::RoughDielectric;
-use crate::{Bxdf, MaterialFlags, ShadingContext};
-use core::f32::consts::FRAC_1_PI;
-use etalon_math::float;
-use etalon_params::{Params, Value};
-use etalon_sampling::warps::square_to_cosine_hemisphere;
-use etalon_transport::{BsdfSample, Build, Textures, TransportMode};
-use glam::{Vec2, Vec3, Vec4};
+use crate::models::disney::{self, is_used, sampling_rate};
+use crate::{MaterialFlags, ShadingContext};
+use etalon_math::lane::{Lane, Spectral};
+use etalon_params::Params;
+use etalon_transport::{Build, Textures};
+use glam::{Vec3, Vec4};
 
 /// Parameters to test with (see [`crate::test_materials`]).
 pub const EXEMPLARS: &[&str] = &[
@@ -130,6 +128,7 @@ impl Description {
     }
 
     /// The model at a point.
+    #[inline]
     pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Principled {
         let at = self.inputs.at(site);
         let tinted = at.spec_tint > 0.0 || at.sheen_tint > 0.0;
@@ -142,9 +141,7 @@ impl Description {
         Principled {
             colour: at.base_color,
             tint,
-            alpha: disney::microfacet(at.roughness, at.anisotropic)
-                .alpha
-                .into(),
+            alpha: disney::microfacet(at.roughness, at.anisotropic).alpha,
             eta: self.eta,
             metallic: at.metallic,
             through: dielectric * spec_trans,
@@ -159,212 +156,40 @@ impl Description {
             coat_probability: if total > 0.0 { rates.z / total } else { 0.0 },
         }
     }
-}
 
-/// The sampling rate of a lobe, relative to its energy.
-pub(crate) fn sampling_rate(params: &Params<'_>, name: &str) -> f32 {
-    let accepted = "a finite number, 0 or more";
-    params.float_where(name, 1.0, accepted, |rate| rate >= 0.0 && rate.is_finite()) as f32
-}
+    /// Whether light may be transmitted.
+    pub(crate) fn transmits(&self) -> bool {
+        self.transmits
+    }
 
-/// Whether a share is given, and not the number 0.
-pub(crate) fn is_used(params: &Params<'_>, name: &str) -> bool {
-    params
-        .property(name)
-        .is_some_and(|property| match property.value {
-            Value::Float(number) => number != 0.0,
-            Value::Integer(number) => number != 0,
-            _ => true,
-        })
-}
-
-/// The material at a point.
-#[derive(Clone, Copy, Debug)]
-pub struct Principled {
-    /// The base's colour, per lane.
-    colour: Vec4,
-    /// The same with luminance one.
-    tint: Vec4,
-    /// α along x and y.
-    alpha: Vec2,
-    eta: f32,
-    /// m.
-    metallic: f32,
-    /// b.
-    through: f32,
-    /// (1 − m) spec_tint.
-    tinted: f32,
-    roughness: f32,
-    flatness: f32,
-    /// (1 − m) sheen.
-    sheen: f32,
-    sheen_tint: f32,
-    clearcoat: f32,
-    coat_alpha: f32,
-    base_probability: f32,
-    coat_probability: f32,
-}
-
-impl Principled {
+    /// The models at several points.
     #[inline]
-    fn microfacet(&self) -> Microfacet {
-        Microfacet::new(Kind::Ggx, self.alpha, true)
-    }
-
-    /// The base; of a fully transmitting material only its sheen remains.
-    #[inline]
-    fn base(&self) -> DisneyBase {
-        DisneyBase {
-            colour: self.colour * (1.0 - self.metallic - self.through).max(0.0),
-            sheen: DisneyBase::sheen_colour(self.sheen, self.sheen_tint, self.tint),
-            roughness: self.roughness,
-            flatness: self.flatness,
+    pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+    ) -> Principled<F> {
+        let each = F::array(|i| {
+            let (description, site) = at(i);
+            description.resolve(site)
+        });
+        let each = each.as_ref();
+        let spectrum = |of: fn(&Principled) -> Vec4| F::Spectrum::of_lanes(|i| of(&each[i]));
+        let number = |of: fn(&Principled) -> f32| F::from_fn(|i| of(&each[i]));
+        Principled {
+            colour: spectrum(|one| one.colour),
+            tint: spectrum(|one| one.tint),
+            alpha: [number(|one| one.alpha[0]), number(|one| one.alpha[1])],
+            eta: number(|one| one.eta),
+            metallic: number(|one| one.metallic),
+            through: number(|one| one.through),
+            tinted: number(|one| one.tinted),
+            roughness: number(|one| one.roughness),
+            flatness: number(|one| one.flatness),
+            sheen: number(|one| one.sheen),
+            sheen_tint: number(|one| one.sheen_tint),
+            clearcoat: number(|one| one.clearcoat),
+            coat_alpha: number(|one| one.coat_alpha),
+            base_probability: number(|one| one.base_probability),
+            coat_probability: number(|one| one.coat_probability),
         }
-    }
-
-    /// F_p, for a cosine to the half-way normal and the dielectric's reflectance.
-    #[inline]
-    fn fresnel(&self, cos: f32, dielectric: f32) -> Vec4 {
-        // Σ w S(R) = Σ wR + (Σ w − Σ wR)(1 − cos θ)⁵.
-        let normal = self.metallic * self.colour
-            + (self.tinted * disney::normal_reflectance(self.eta)) * self.tint;
-        let weight = self.metallic + self.tinted;
-        let schlick = normal + (weight - normal) * schlick_entering(cos, self.eta);
-        schlick + (1.0 - weight) * dielectric
-    }
-
-    /// The interface from the side of `wo`.
-    fn rough(&self) -> RoughDielectric {
-        RoughDielectric {
-            eta: Vec4::splat(self.eta),
-            reflectance: Vec4::ONE,
-            transmittance: self.colour.max(Vec4::ZERO).sqrt() * self.through,
-            microfacet: self.microfacet(),
-        }
-    }
-
-    /// The probability that the main interface is sampled, in front.
-    #[inline]
-    fn interface_probability(&self) -> f32 {
-        (1.0 - self.base_probability - self.coat_probability).max(0.0)
-    }
-
-    /// D₁.
-    #[inline]
-    fn coat_d(&self, m: Vec3) -> f32 {
-        let a2 = self.coat_alpha * self.coat_alpha;
-        let area = 1.0 + (a2 - 1.0) * m.z * m.z;
-        FRAC_1_PI * (a2 - 1.0) / (float::ln(a2) * area)
-    }
-
-    /// A normal of the clear coat, with the density D₁ cos θ.
-    #[inline]
-    fn coat_normal(&self, u: Vec2) -> Vec3 {
-        let a2 = self.coat_alpha * self.coat_alpha;
-        let cos2 = (1.0 - float::exp(float::ln(a2) * (1.0 - u.y))) / (1.0 - a2);
-        let (sin, cos) = float::sin_cos_turns(u.x);
-        let radius = float::safe_sqrt(1.0 - cos2);
-        Vec3::new(cos * radius, sin * radius, float::safe_sqrt(cos2))
-    }
-
-    /// Two directions in front.
-    fn front(&self, wo: Vec3, wi: Vec3) -> (Vec4, Vec4) {
-        let mut value = self.base().eval(wo, wi);
-        let mut density = self.base_probability * wi.z * FRAC_1_PI;
-        if let Some((m, cos)) = half_way(wo, wi) {
-            let fresnel = fresnel::dielectric(cos, self.eta).0;
-            let microfacet = self.microfacet();
-            let d = microfacet.d(m);
-            let reflected = self.fresnel(cos, fresnel);
-            let shadowing = microfacet.g1(wo, m) * microfacet.g1(wi, m);
-            value += reflected * (d * shadowing / (4.0 * wo.z));
-            let reflects = 1.0 - self.through * (1.0 - fresnel);
-            let normals = self.interface_probability() * reflects * microfacet.density(wo, m, d);
-            let mut normals = normals / (4.0 * cos);
-            if self.clearcoat > 0.0 {
-                let (d, coat) = (
-                    self.coat_d(m),
-                    Microfacet::new(Kind::Ggx, Vec2::splat(0.25), true),
-                );
-                let fresnel = 0.04 + 0.96 * schlick_entering(cos, self.eta);
-                let shadowing = coat.g1(wo, m) * coat.g1(wi, m);
-                value += Vec4::splat(0.25 * self.clearcoat * fresnel * d * shadowing * wi.z);
-                normals += self.coat_probability * d * m.z / (4.0 * cos);
-            }
-            density += normals;
-        }
-        (value, Vec4::splat(density))
-    }
-}
-
-impl Bxdf for Principled {
-    fn eval_and_density(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> (Vec4, Vec4) {
-        if wo.z > 0.0 && wi.z > 0.0 {
-            return self.front(wo, wi);
-        }
-        if wo.z == 0.0 || wi.z == 0.0 || !(self.through > 0.0) {
-            return (Vec4::ZERO, Vec4::ZERO);
-        }
-        let (value, density) = self.rough().eval_and_density(wo, wi, mode);
-        if wo.z < 0.0 {
-            let reflected = if wi.z < 0.0 { self.through } else { 1.0 };
-            (value * reflected, density)
-        } else {
-            (
-                value,
-                density * (self.interface_probability() * self.through),
-            )
-        }
-    }
-
-    fn sample(
-        &self,
-        wo: Vec3,
-        mut u_lobe: f32,
-        u: Vec2,
-        mode: TransportMode,
-    ) -> Option<BsdfSample> {
-        if !(wo.z > 0.0) {
-            return (self.through > 0.0)
-                .then(|| self.rough().sample(wo, u_lobe, u, mode))?
-                .and_then(|sample| self.continuous(wo, sample.wi, sample.eta, mode));
-        }
-        let wi = if u_lobe < self.base_probability {
-            square_to_cosine_hemisphere(u)
-        } else if u_lobe < self.base_probability + self.coat_probability {
-            reflect(wo, self.coat_normal(u))
-        } else {
-            let m = self.microfacet().sample(wo, u.to_array());
-            let cos = wo.dot(m);
-            if !(cos > 0.0) {
-                return None;
-            }
-            let before = self.base_probability + self.coat_probability;
-            u_lobe = (u_lobe - before) / (1.0 - before);
-            let (fresnel, cos_t) = fresnel::dielectric(cos, self.eta);
-            if u_lobe >= 1.0 - self.through * (1.0 - fresnel) {
-                let wi = refract(wo, m, self.eta, cos_t);
-                return (wi.z < 0.0).then(|| self.continuous(wo, wi, self.eta, mode))?;
-            }
-            reflect(wo, m)
-        };
-        // Light that would be reflected into the surface is lost.
-        (wi.z > 0.0).then(|| self.continuous(wo, wi, 1.0, mode))?
-    }
-
-    fn has_continuous(&self) -> bool {
-        true
-    }
-
-    fn has_discrete(&self) -> bool {
-        false
-    }
-
-    fn transmits(&self) -> bool {
-        self.through > 0.0
-    }
-
-    fn albedo(&self, _: Vec3) -> Vec4 {
-        self.colour
     }
 }

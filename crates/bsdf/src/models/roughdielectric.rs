@@ -209,7 +209,7 @@ impl<F: Lane> RoughDielectric<F> {
 
     /// [`Bxdf::eval_and_density`] in lanes.
     #[inline(always)]
-    fn eval_in(
+    pub(crate) fn eval_in(
         &self,
         wo: F::Vector,
         wi: F::Vector,
@@ -228,7 +228,7 @@ impl<F: Lane> RoughDielectric<F> {
 
     /// [`Bxdf::sample`] in lanes.
     #[inline(always)]
-    fn sample_in(
+    pub(crate) fn sample_in(
         &self,
         wo: F::Vector,
         u_lobe: F,
