@@ -182,6 +182,15 @@ fn compare<F: Lane>(kind: LaneKind, scene: &Scene, cases: &[Case<'_>]) {
     }
 }
 
+/// Beside the exemplars of all models: what only their transmitting ones have, and two sides of other kinds.
+const OTHERS: [&str; 4] = [
+    "principled base_color=t:400:0.1,700:0.8 metallic=f:0.4 spec_tint=f:0.4 anisotropic=f:0.5 sheen=f:0.3 \
+     sheen_tint=f:0.2 clearcoat=f:0.6 clearcoat_gloss=f:0.1 flatness=f:0.3",
+    "twosided ( plastic ) ( plastic nonlinear=b:true )",
+    "twosided ( conductor )",
+    "twosided ( roughplastic alpha=f:0.2 ) ( roughplastic distribution=s:ggx )",
+];
+
 /// Mutants rejected: the frame of the front on the back of `twosided`; a sample that is found behind a surface; the parameters of
 /// one lane in all of them.
 #[test]
@@ -189,6 +198,7 @@ fn lanes_have_the_bits_of_a_material_alone() {
     let mut random = Uniform::new(1);
     let mut scene = Scene::default();
     let materials: Vec<(&str, Material)> = (etalon_bsdf::test_materials())
+        .chain(OTHERS)
         .map(|text| (text, scene.read(text).0.expect("a material")))
         .collect();
     let mut groups = std::collections::BTreeMap::<u8, Vec<_>>::new();
