@@ -169,7 +169,7 @@ enum ForPoints {
     /// The same for all.
     Table(AliasTable),
     /// For each its own, of few lights.
-    Few(FewLights),
+    Few(Box<FewLights>),
     /// For each its own, of the lights that have a place.
     Tree {
         tree: LightTree,
@@ -201,7 +201,9 @@ impl LightSampler {
         let few = lights.iter().filter(|l| weight(l) > 0.0).count() <= LightSamplerKind::FEW;
         let for_points = match kind {
             LightSamplerKind::Power => None,
-            LightSamplerKind::Automatic if few => FewLights::new(lights).map(ForPoints::Few),
+            LightSamplerKind::Automatic if few => {
+                FewLights::new(lights).map(|few| ForPoints::Few(Box::new(few)))
+            }
             LightSamplerKind::Uniform => table(&|light| match light.power > 0.0 {
                 true => light.weight,
                 false => 0.0,
