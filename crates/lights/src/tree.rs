@@ -150,7 +150,7 @@ impl LightTree {
         }
     }
 
-    /// The probability with which [`LightTree::choose`] chooses `light` for `from`.
+    /// The probability with which `light` is chosen for `from`.
     #[inline]
     pub fn probability(&self, from: &LightSampleContext, light: LightId) -> f32 {
         let Some(Trail(mut trail)) = self.trails[light.0 as usize] else {
