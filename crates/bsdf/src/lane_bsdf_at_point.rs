@@ -46,16 +46,18 @@ impl<'a, F: Lane> LaneBsdfAtPoint<'a, F> {
         }: LaneVertices<'_>,
         wo: F::Vector,
     ) -> Self {
+        let material = F::array(material);
+        let material = material.as_ref();
         let mut frame = LaneFrame::<F>::of_lanes(|i| &vertices[i].shading);
         // The back of a surface with two sides has the mirror image of its frame. A direction in the surface itself is on either
         // side, where nothing is scattered.
-        let back = F::Mask::from_fn(|i| material(i).has_two_sides())
+        let back = F::Mask::from_fn(|i| material[i].has_two_sides())
             & !frame.n.dot_product(wo).gt(F::ZERO);
         frame.n = F::Vector::choose(back, -frame.n, frame.n);
         let sites: ArrayVec<_, MOST_LANES> = (0..F::WIDTH)
             .map(|i| ShadingContext::new(textures, vertices[i], wo.at_lane(i), &wavelengths[i]))
             .collect();
-        let model = LaneModel::new(kind, |i| (material(i).lane_side(back.lane(i)), &sites[i]));
+        let model = LaneModel::new(kind, |i| (material[i].lane_side(back.lane(i)), &sites[i]));
         Self { frame, model }
     }
 }

@@ -13,19 +13,11 @@ pub struct ShadingContext<'t, T> {
     /// The textures of the scene.
     pub textures: &'t T,
     /// The point.
-    pub at: TexturePoint,
+    pub vertex: &'t SurfaceInteraction,
     /// The wavelengths (nm).
     pub lambda: Vec4,
     /// The known direction (world).
     pub wo: Vec3,
-    /// ∂p/∂u and ∂p/∂v (world).
-    pub dp_du: Vec3,
-    /// See `dp_du`.
-    pub dp_dv: Vec3,
-    /// Unit geometric normal, outside.
-    pub normal: Vec3,
-    /// Unit shading normal, outside.
-    pub shading_normal: Vec3,
 }
 
 impl<T> Clone for ShadingContext<'_, T> {
@@ -42,32 +34,34 @@ impl<'t, T: Textures> ShadingContext<'t, T> {
     #[inline]
     pub fn new(
         textures: &'t T,
-        vertex: &SurfaceInteraction,
+        vertex: &'t SurfaceInteraction,
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Self {
         Self {
             textures,
-            at: TexturePoint::from(vertex),
+            vertex,
             lambda: wavelengths.lambda,
             wo,
-            dp_du: vertex.dp_du,
-            dp_dv: vertex.dp_dv,
-            normal: vertex.normal,
-            shading_normal: vertex.shading.n,
         }
+    }
+
+    /// The point, for textures.
+    #[inline]
+    pub fn at(&self) -> TexturePoint {
+        TexturePoint::from(self.vertex)
     }
 
     /// A spectrum here.
     #[inline]
     pub fn spectrum(&self, texture: TextureId) -> Vec4 {
-        self.textures.spectrum(texture, &self.at, self.lambda)
+        self.textures.spectrum(texture, &self.at(), self.lambda)
     }
 
     /// A number here.
     #[inline]
     pub fn number(&self, texture: TextureId) -> f32 {
-        self.textures.number(texture, &self.at)
+        self.textures.number(texture, &self.at())
     }
 
     /// A number here that is a share of the light: brought into [0, 1], as bitmaps may exceed it.

@@ -155,11 +155,9 @@ impl LightModel for ConstantLight {
         Some(LaneLightSample {
             found: density.gt(F::ZERO),
             direction,
-            target: F::Vector::broadcast(Vec3::ZERO),
-            has_target: F::Mask::splat(false),
             radiance: F::Spectrum::of_lanes(radiance),
             chance: density,
-            is_delta: F::Mask::splat(false),
+            ..LaneLightSample::none()
         })
     }
 

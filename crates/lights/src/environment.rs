@@ -21,12 +21,14 @@ use crate::light_model::LightModel;
 use crate::pose::Pose;
 use crate::{BoundingSphere, latitude_longitude, sky};
 use etalon_images::raster_file;
+use etalon_math::lane::{Int, Lane, Mask, Select, Spectral};
 use etalon_math::{Density, SolidAngle, float64};
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::discrete::Bilinear;
 use etalon_spectrum::{Regular, RgbCoefficients, Spectrum, Wavelengths, illuminants};
 use etalon_transport::{
-    Build, Emission, EmissionPdf, LightSample, LightSampleContext, Shapes, Textures, file,
+    Build, Emission, EmissionPdf, LaneLightSample, LaneReceiver, LightSample, LightSampleContext,
+    Shapes, Textures, file,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::path::Path;
@@ -87,31 +89,35 @@ struct SkyImage {
     texels: Vec<Vec4>,
 }
 
-/// A place between four texels.
-struct Cell {
-    texels: [usize; 4],
-    weights: [f32; 4],
+/// Places, each between four texels.
+struct Cell<F: Lane> {
+    texels: [F::Int; 4],
+    weights: [F; 4],
 }
 
 impl SkyImage {
-    /// The cell at a place of the unit square whose u begins at the centre of the first column.
-    #[inline]
-    fn cell(&self, place: Vec2) -> Cell {
+    /// The cells at places of the unit square whose u begins at the centre of the first column.
+    #[inline(always)]
+    fn cell<F: Lane>(&self, [u, v]: [F; 2]) -> Cell<F> {
         let UVec2 { x: w, y: h } = self.size;
-        let x = place.x * w as f32;
-        let y = place.y * (h - 1) as f32;
-        let (i, j) = ((x as u32).min(w - 1), (y as u32).min(h - 2));
-        let (a, b) = (x - i as f32, y - j as f32);
-        let next = if i + 1 < w { i + 1 } else { 0 };
-        let index = |column: u32, row: u32| (row as usize) * w as usize + column as usize;
+        let (x, y) = (u * w as f32, v * (h - 1) as f32);
+        let within =
+            |i: F::Int, end: u32| i.lt(F::Int::splat(end)).select(i, F::Int::splat(end - 1));
+        let (i, j) = (within(x.to_int(), w), within(y.to_int(), h - 1));
+        let (a, b) = (x - F::from_int(i), y - F::from_int(j));
+        let next = i.wrapping_add(F::Int::splat(1));
+        let next = next.lt(F::Int::splat(w)).select(next, F::Int::splat(0));
+        let row = j.wrapping_mul(F::Int::splat(w));
+        let below = row.wrapping_add(F::Int::splat(w));
+        let (left, top) = (F::ONE - a, F::ONE - b);
         Cell {
             texels: [
-                index(i, j),
-                index(next, j),
-                index(i, j + 1),
-                index(next, j + 1),
+                row.wrapping_add(i),
+                row.wrapping_add(next),
+                below.wrapping_add(i),
+                below.wrapping_add(next),
             ],
-            weights: [(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b],
+            weights: [left * top, a * top, left * b, a * b],
         }
     }
 }
@@ -212,16 +218,22 @@ impl EnvironmentMap {
         0.5 / self.image.size.x as f32
     }
 
-    /// Radiance at a moved place.
-    #[inline]
-    fn radiance(&self, place: Vec2, wavelengths: &Wavelengths) -> Vec4 {
+    /// Radiance at moved places, at the wavelengths `lambda(i)` in lane i.
+    #[inline(always)]
+    fn radiance<F: Lane>(&self, place: [F; 2], lambda: impl Fn(usize) -> Vec4) -> F::Spectrum {
+        let [lambda, white] = F::Spectrum::pairs_of_lanes(|i| {
+            let lambda = lambda(i);
+            [lambda, WHITE.eval(lambda)]
+        });
         let Cell { texels, weights } = self.image.cell(place);
-        let mut spectrum = Vec4::ZERO;
+        let mut spectrum = F::Spectrum::uniform(F::ZERO);
         for (texel, weight) in texels.into_iter().zip(weights) {
-            let [a, b, c, m] = self.image.texels[texel].to_array();
-            spectrum += RgbCoefficients([a, b, c]).eval(wavelengths.lambda) * (m * weight);
+            let texel = |i: usize| self.image.texels[texel.lane(i) as usize];
+            let [a, b, c, m] = F::Spectrum::of_lanes(texel).waves();
+            let smooth = RgbCoefficients::eval_lanes::<F>([a, b, c], lambda);
+            spectrum = spectrum + smooth * (m * weight);
         }
-        WHITE.eval(wavelengths.lambda) * spectrum * self.scale
+        white * spectrum * F::splat(self.scale)
     }
 
     /// The distribution of directions for the receiver `from`.
@@ -244,13 +256,36 @@ impl EnvironmentMap {
         directions.density(self.place(local)) / latitude_longitude::stretch(sin_theta)
     }
 
-    /// A direction with its place and density (sr⁻¹).
+    /// Directions, of lanes where they are `wanted`, with their places and densities (sr⁻¹); 0 where there is none.
+    #[inline(always)]
+    fn choose<F: Lane>(
+        &self,
+        directions: &Bilinear,
+        wanted: F::Mask,
+        [u, v]: [F; 2],
+    ) -> (F::Vector, [F; 2], F) {
+        let places = F::array(|i| match wanted.lane(i) {
+            true => directions.sample(Vec2::new(u.lane(i), v.lane(i))),
+            false => Vec2::ZERO,
+        });
+        let places = places.as_ref();
+        let [x, y] = [0, 1].map(|k| F::from_fn(|i| places[i][k]));
+        let (local, sin_theta) = map::to_direction([x + self.half_texel(), y]);
+        let per_area = F::from_fn(|i| directions.density(places[i]));
+        let density = per_area / map::stretch(sin_theta);
+        let exists = sin_theta.gt(F::ZERO) & density.gt(F::ZERO);
+        (
+            self.pose.to_world_lanes::<F>(local),
+            [x, y],
+            exists.select(density, F::ZERO),
+        )
+    }
+
+    /// One direction; `None` where there is none.
     #[inline]
-    fn choose(&self, directions: &Bilinear, u: Vec2) -> Option<(Vec3, Vec2, f32)> {
-        let place = directions.sample(u);
-        let (local, sin_theta) = map::to_direction(place + Vec2::new(self.half_texel(), 0.0));
-        let density = directions.density(place) / map::stretch(sin_theta);
-        (sin_theta > 0.0 && density > 0.0).then(|| (self.pose.to_world(local), place, density))
+    fn choose_one(&self, directions: &Bilinear, u: Vec2) -> Option<(Vec3, [f32; 2], f32)> {
+        let (direction, place, density) = self.choose::<f32>(directions, true, u.to_array());
+        (density > 0.0).then_some((direction, place, density))
     }
 }
 
@@ -280,7 +315,8 @@ impl LightModel for EnvironmentMap {
 
     #[inline]
     fn background(&self, _: &impl Textures, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        self.radiance(self.place(self.pose.to_local(direction)), wavelengths)
+        let place = self.place(self.pose.to_local(direction)).to_array();
+        self.radiance::<f32>(place, |_| wavelengths.lambda)
     }
 
     #[inline]
@@ -300,9 +336,29 @@ impl LightModel for EnvironmentMap {
         wavelengths: &Wavelengths,
         u: Vec2,
     ) -> Option<LightSample> {
-        let (direction, place, density) = self.choose(self.toward(from)?, u)?;
-        let radiance = self.radiance(place, wavelengths);
+        let (direction, place, density) = self.choose_one(self.toward(from)?, u)?;
+        let radiance = self.radiance::<f32>(place, |_| wavelengths.lambda);
         Some(sky::sample(direction, radiance, Density::uniform(density)))
+    }
+
+    #[inline]
+    fn sample_lanes<F: Lane>(
+        &self,
+        _: &(impl Textures + Shapes),
+        (_, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
+        wanted: F::Mask,
+        u: [F; 2],
+    ) -> Option<LaneLightSample<F>> {
+        // Receivers in lanes combine it with scattering.
+        let directions = self.tables.combined.as_deref()?;
+        let (direction, place, density) = self.choose(directions, wanted, u);
+        Some(LaneLightSample {
+            found: density.gt(F::ZERO),
+            direction,
+            radiance: self.radiance(place, |i| wavelengths[i].lambda),
+            chance: density,
+            ..LaneLightSample::none()
+        })
     }
 
     #[inline]
@@ -315,8 +371,9 @@ impl LightModel for EnvironmentMap {
         u_direction: Vec2,
         _time: f32,
     ) -> Option<Emission> {
-        let (toward, place, density) = self.choose(self.tables.alone.as_ref()?, u_direction)?;
-        let radiance = self.radiance(place, wavelengths);
+        let directions = self.tables.alone.as_deref()?;
+        let (toward, place, density) = self.choose_one(directions, u_direction)?;
+        let radiance = self.radiance::<f32>(place, |_| wavelengths.lambda);
         Some(sky::emit(bounds, toward, u_position, radiance, density))
     }
 

@@ -146,14 +146,24 @@ impl<F: Lane> LightBounds<F> {
     /// `bounds(i)` in lane i.
     #[inline(always)]
     pub(crate) fn of_lanes<'b>(bounds: impl Fn(usize) -> &'b LightBounds) -> Self {
+        let [cx, cy, cz, radius_squared, ax, ay, az, power] = F::columns(|i| {
+            let bounds = bounds(i);
+            let ([cx, cy, cz], [ax, ay, az]) = (bounds.centre.to_array(), bounds.axis.to_array());
+            [cx, cy, cz, bounds.radius_squared, ax, ay, az, bounds.power]
+        });
+        let [cos_spread, sin_spread, cos_edge, ..] = F::columns(|i| {
+            let bounds = bounds(i);
+            let [a, b, c] = [bounds.cos_spread, bounds.sin_spread, bounds.cos_edge];
+            [a, b, c, 0.0, 0.0, 0.0, 0.0, 0.0]
+        });
         Self {
-            centre: F::Vector::of_lanes(|i| bounds(i).centre),
-            radius_squared: F::from_fn(|i| bounds(i).radius_squared),
-            axis: F::Vector::of_lanes(|i| bounds(i).axis),
-            cos_spread: F::from_fn(|i| bounds(i).cos_spread),
-            sin_spread: F::from_fn(|i| bounds(i).sin_spread),
-            cos_edge: F::from_fn(|i| bounds(i).cos_edge),
-            power: F::from_fn(|i| bounds(i).power),
+            centre: F::Vector::from_xyz(cx, cy, cz),
+            radius_squared,
+            axis: F::Vector::from_xyz(ax, ay, az),
+            cos_spread,
+            sin_spread,
+            cos_edge,
+            power,
         }
     }
 

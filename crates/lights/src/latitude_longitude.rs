@@ -9,7 +9,7 @@
 //! viewer who looks along +Z.
 
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
-use etalon_math::lane::{self, sin_cos_turns};
+use etalon_math::lane::{self, Lane, Vector, sin_cos_turns};
 use glam::{Vec2, Vec3};
 
 /// The place in the unit square of a unit direction; u in [0, 1).
@@ -23,19 +23,19 @@ pub fn to_square(direction: Vec3) -> Vec2 {
     Vec2::new(if u < 1.0 { u } else { 0.0 }, theta * FRAC_1_PI)
 }
 
-/// The unit direction at a place of the unit square, and sin θ there.
-#[inline]
-pub fn to_direction(uv: Vec2) -> (Vec3, f32) {
-    let (sin_phi, cos_phi) = sin_cos_turns(uv.x);
-    let (sin_theta, cos_theta) = sin_cos_turns(0.5 * uv.y);
-    let direction = Vec3::new(sin_phi * sin_theta, cos_theta, -cos_phi * sin_theta);
+/// The unit directions at places of the unit square, and sin θ there.
+#[inline(always)]
+pub fn to_direction<F: Lane>([u, v]: [F; 2]) -> (F::Vector, F) {
+    let (sin_phi, cos_phi) = sin_cos_turns(u);
+    let (sin_theta, cos_theta) = sin_cos_turns(v * 0.5);
+    let direction = F::Vector::from_xyz(sin_phi * sin_theta, cos_theta, -cos_phi * sin_theta);
     (direction, sin_theta)
 }
 
 /// 2π² sin θ: solid angle per unit area of the square.
-#[inline]
-pub fn stretch(sin_theta: f32) -> f32 {
-    2.0 * PI * PI * sin_theta
+#[inline(always)]
+pub fn stretch<F: Lane>(sin_theta: F) -> F {
+    sin_theta * (2.0 * PI * PI)
 }
 
 #[cfg(test)]
@@ -53,7 +53,7 @@ mod tests {
 
         #[test]
         fn square_and_sphere_correspond(u in 0.0f32..1.0, v in 0.02f32..0.98) {
-            let (direction, sin_theta) = to_direction(Vec2::new(u, v));
+            let (direction, sin_theta) = to_direction::<f32>([u, v]);
             prop_assert!((direction.length() - 1.0).abs() < 1e-6);
             let back = to_square(direction);
             prop_assert!((0.0..1.0).contains(&back.x));
@@ -66,11 +66,11 @@ mod tests {
         #[test]
         fn stretch_is_the_jacobian(u in 0.1f32..0.9, v in 0.05f32..0.95) {
             const STEP: f32 = 1.0 / 512.0;
-            let at = |du: f32, dv: f32| to_direction(Vec2::new(u + du, v + dv)).0;
+            let at = |du: f32, dv: f32| to_direction::<f32>([u + du, v + dv]).0;
             let du = (at(STEP, 0.0) - at(-STEP, 0.0)) / (2.0 * STEP);
             let dv = (at(0.0, STEP) - at(0.0, -STEP)) / (2.0 * STEP);
             let jacobian = du.cross(dv).length();
-            let (_, sin_theta) = to_direction(Vec2::new(u, v));
+            let (_, sin_theta) = to_direction::<f32>([u, v]);
             // Central differences err by (2π·STEP)²/6 < 3·10⁻⁵ in either direction.
             prop_assert!((jacobian / stretch(sin_theta) - 1.0).abs() < 2e-4);
         }

@@ -1,6 +1,7 @@
 //! `to_world` of lights that have a direction: a position and an orientation.
 
 use crate::LightExtent;
+use etalon_math::lane::{Lane, Vector};
 use etalon_math::{Animated, DeltaProbability, DirectionCone, FromAffine, Transform};
 use etalon_params::Params;
 use etalon_transport::{
@@ -61,6 +62,12 @@ impl Pose {
     #[inline]
     pub fn to_world(&self, direction: Vec3) -> Vec3 {
         self.transform.vector(direction).normalize()
+    }
+
+    /// The same of several directions.
+    #[inline(always)]
+    pub fn to_world_lanes<F: Lane>(&self, direction: F::Vector) -> F::Vector {
+        self.transform.vectors::<F>(direction).normalized()
     }
 
     /// The direction (unit) in the light's space of a world direction.

@@ -228,7 +228,7 @@ impl LightSet {
         }
         let choice = self.selector.choose_lanes(from, u_light);
         let chosen = choice.found & wanted;
-        let mut sample = LaneLightSample::of_lanes(|_| None);
+        let mut sample = LaneLightSample::none();
         // Lanes whose light must be sampled by itself.
         let mut alone = 0;
         let mut left = chosen.bits();

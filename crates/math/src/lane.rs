@@ -124,6 +124,10 @@ pub trait Lane:
     fn load(from: &[f32]) -> Self;
     /// Writes the lanes over the first numbers of `to`.
     fn store(self, to: &mut [f32]);
+    /// The columns of a matrix whose row i belongs to lane i: lane i of the result k is number k of `row(i)`.
+    fn columns(row: impl FnMut(usize) -> [f32; 8]) -> [Self; 8];
+    /// The rows of the matrix with these columns, one for each lane.
+    fn rows(columns: [Self; 8]) -> Self::Array<[f32; 8]>;
     /// The numbers of `table` at `indices`, one by one.
     #[inline(always)]
     fn gather(table: &[f32], indices: Self::Int) -> Self {

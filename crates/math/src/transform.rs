@@ -4,7 +4,8 @@
 //! rendered.
 
 use crate::FromAffine;
-use glam::{Affine3A, DAffine3, DMat4, Vec3};
+use crate::lane::{Lane, Vector};
+use glam::{Affine3A, DAffine3, DMat4, Vec3, Vec3A};
 
 /// An invertible affine map of space, with its inverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +73,15 @@ impl Transform {
     #[inline]
     pub fn vector(&self, v: Vec3) -> Vec3 {
         self.forward.transform_vector3(v)
+    }
+
+    /// The images of several vectors.
+    #[inline(always)]
+    pub fn vectors<F: Lane>(&self, v: F::Vector) -> F::Vector {
+        let m = &self.forward.matrix3;
+        let [x, y, z] = v.xyz();
+        let axis = |axis: Vec3A| F::Vector::broadcast(axis.into());
+        axis(m.x_axis) * x + axis(m.y_axis) * y + axis(m.z_axis) * z
     }
 
     /// The image of a normal (a covector; not normalised).

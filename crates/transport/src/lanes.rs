@@ -51,6 +51,23 @@ impl<F: Lane> LaneReceiver<F> {
         self.normal.is_zero().select(F::ONE, counted)
     }
 
+    /// The receiver in each lane.
+    #[inline(always)]
+    pub fn lanes(&self) -> F::Array<LightSampleContext> {
+        let ([px, py, pz], [nx, ny, nz]) = (self.position.xyz(), self.normal.xyz());
+        let rows = F::rows([px, py, pz, nx, ny, nz, self.time, F::ZERO]);
+        F::array(|i| {
+            let [px, py, pz, nx, ny, nz, time, _] = rows.as_ref()[i];
+            LightSampleContext {
+                position: Vec3::new(px, py, pz),
+                normal: Vec3::new(nx, ny, nz),
+                one_sided: self.one_sided.lane(i),
+                time,
+                combined: true,
+            }
+        })
+    }
+
     /// The receiver in lane `index`.
     #[inline]
     pub fn at_lane(&self, index: usize) -> LightSampleContext {
@@ -97,32 +114,49 @@ pub struct LaneLightSample<F: Lane> {
 }
 
 impl<F: Lane> LaneLightSample<F> {
+    /// None in any lane.
+    #[inline(always)]
+    pub fn none() -> Self {
+        let (nowhere, never) = (F::Vector::broadcast(Vec3::ZERO), F::Mask::splat(false));
+        Self {
+            found: never,
+            direction: nowhere,
+            target: nowhere,
+            has_target: never,
+            radiance: F::Spectrum::uniform(F::ZERO),
+            chance: F::ZERO,
+            is_delta: never,
+        }
+    }
+
     /// `sample(i)` in lane i, of lights that are not media.
     #[inline]
     pub fn of_lanes(sample: impl Fn(usize) -> Option<LightSample>) -> Self {
         let samples = per_lane::<F, _>(sample);
-        let vector = |of: fn(&LightSample) -> Vec3| {
-            F::Vector::of_lanes(|i| samples[i].as_ref().map_or(Vec3::ZERO, of))
-        };
         let mask = |of: fn(&LightSample) -> bool| {
             F::Mask::from_fn(|i| samples[i].as_ref().is_some_and(of))
         };
+        let place = |i: usize| {
+            let Some(sample) = &samples[i] else {
+                return [0.0; 8];
+            };
+            let target = sample.target.unwrap_or(Vec3::ZERO);
+            let ([dx, dy, dz], [tx, ty, tz]) = (sample.direction.to_array(), target.to_array());
+            // Of such lights it is the same for all wavelengths.
+            [dx, dy, dz, tx, ty, tz, sample.chance.lanes().x, 0.0]
+        };
+        let radiance = |i: usize| {
+            let sample = samples[i].as_ref();
+            sample.map_or(Vec4::ZERO, |sample| sample.radiance)
+        };
+        let [dx, dy, dz, tx, ty, tz, chance, _] = F::columns(place);
         Self {
             found: mask(|_| true),
-            direction: vector(|sample| sample.direction),
-            target: vector(|sample| sample.target.unwrap_or(Vec3::ZERO)),
+            direction: F::Vector::from_xyz(dx, dy, dz),
+            target: F::Vector::from_xyz(tx, ty, tz),
             has_target: mask(|sample| sample.target.is_some()),
-            radiance: F::Spectrum::of_lanes(|i| {
-                samples[i]
-                    .as_ref()
-                    .map_or(Vec4::ZERO, |sample| sample.radiance)
-            }),
-            // Of such lights it is the same for all wavelengths.
-            chance: F::from_fn(|i| {
-                samples[i]
-                    .as_ref()
-                    .map_or(0.0, |sample| sample.chance.lanes().x)
-            }),
+            radiance: F::Spectrum::of_lanes(radiance),
+            chance,
             is_delta: mask(|sample| sample.chance.is_delta()),
         }
     }

@@ -17,6 +17,7 @@ pub mod film;
 pub mod ids;
 pub mod integrator;
 pub mod lanes;
+pub mod leaving;
 pub mod legacy_phong;
 pub mod light;
 pub mod light_sample_context;
@@ -46,6 +47,7 @@ pub use lanes::{
     LaneBsdf, LaneBsdfSample, LaneKind, LaneLightSample, LanePoint, LaneReceiver, LaneShading,
     LaneVertices, NoLanes,
 };
+pub use leaving::{Leaving, LeavingRays};
 pub use legacy_phong::LegacyPhong;
 pub use light::{Emission, EmissionPdf, LightKind, LightSample, LightVariety};
 pub use light_sample_context::LightSampleContext;

@@ -1,6 +1,7 @@
 //! Rays.
 
 use crate::{MediumId, ShapeId};
+use etalon_math::lane::{Lane, Vector};
 use etalon_sampling::Independent;
 use etalon_sampling::hash::mix64;
 use glam::Vec3;
@@ -27,6 +28,20 @@ impl Departure {
         primitive: 0,
         t: 0.0,
     };
+}
+
+/// Unit directions and lengths (m) of segments between points that are off any surface, a few roundings short of `to`; the lanes
+/// where the two do not coincide.
+#[inline(always)]
+pub(crate) fn segments<F: Lane>(from: F::Vector, to: F::Vector) -> (F::Vector, F, F::Mask) {
+    let way = to - from;
+    let distance = way.norm();
+    let exists = distance.gt(F::ZERO);
+    (
+        way.over(distance),
+        distance * (1.0 - 8.0 * f32::EPSILON),
+        exists,
+    )
 }
 
 /// A half-line or segment, with the time at which it travels.
@@ -64,12 +79,11 @@ impl Ray {
     /// roundings short of `to`. `None` if the points coincide.
     #[inline]
     pub fn between(from: Vec3, to: Vec3, time: f32) -> Option<Self> {
-        let d = to - from;
-        let distance = d.length();
-        (distance > 0.0).then(|| Self {
+        let (direction, t_max, exists) = segments::<f32>(from, to);
+        exists.then_some(Self {
             origin: from,
-            direction: d / distance,
-            t_max: distance * (1.0 - 8.0 * f32::EPSILON),
+            direction,
+            t_max,
             time,
             departure: Departure::NONE,
             medium: MediumId::NONE,

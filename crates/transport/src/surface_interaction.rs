@@ -1,6 +1,6 @@
 //! Vertices of paths: points of surfaces, and scattering points in media.
 
-use crate::{Departure, InstanceId, LightId, MaterialId, MediumInterface, Ray, ShapeId};
+use crate::{InstanceId, Leaving, LightId, MaterialId, MediumInterface, Ray, ShapeId};
 use etalon_math::{Frame, offset_origin};
 use glam::{Vec2, Vec3};
 
@@ -102,15 +102,22 @@ impl SurfaceInteraction {
         }
     }
 
+    /// The point as rays leave it.
+    #[inline]
+    fn leaving(&self) -> Leaving<f32> {
+        Leaving {
+            position: self.position,
+            error: self.error,
+            depth: self.depth,
+            normal: self.normal,
+        }
+    }
+
     /// A half-line that leaves this surface.
     #[inline]
     pub fn spawn(&self, direction: Vec3) -> Ray {
-        let origin = offset_origin(self.position, self.error, self.normal, direction);
-        Ray {
-            departure: self.departure(origin, direction),
-            medium: self.media.toward(direction.dot(self.normal)),
-            ..Ray::new(origin, direction, self.time)
-        }
+        let [ray] = self.leaving().spawn(direction).lanes(|_| self);
+        ray
     }
 
     /// The remainder of `segment` beyond this surface, which it crosses here; `None` if it ends here.
@@ -119,27 +126,6 @@ impl SurfaceInteraction {
         let next = self.spawn(segment.direction);
         let t_max = segment.t_max - (next.origin - segment.origin).dot(segment.direction);
         (t_max > 0.0).then_some(Ray { t_max, ..next })
-    }
-
-    /// Where the line from `origin`, just off this surface, along `direction` crosses it.
-    #[inline]
-    fn departure(&self, origin: Vec3, direction: Vec3) -> Departure {
-        if self.depth.is_nan() {
-            return Departure::NONE;
-        }
-        // Neighbouring numbers: their difference is exact.
-        let height = (origin - self.position).dot(self.normal) - self.depth;
-        let t = -height / direction.dot(self.normal);
-        // False for NaN, too.
-        if t <= 0.0 && t > f32::NEG_INFINITY {
-            Departure {
-                shape: self.shape,
-                primitive: self.primitive,
-                t,
-            }
-        } else {
-            Departure::NONE
-        }
     }
 
     /// The origin of a ray that leaves this surface toward `target`.
@@ -157,16 +143,11 @@ impl SurfaceInteraction {
     /// `None` if the target is closer than rounding resolves.
     #[inline]
     pub fn shadow_ray(&self, direction: Vec3, target: Option<Vec3>) -> Option<Ray> {
-        match target {
-            None => Some(self.spawn(direction)),
-            Some(target) => {
-                let ray = Ray::between(self.origin_toward(target), target, self.time)?;
-                Some(Ray {
-                    departure: self.departure(ray.origin, ray.direction),
-                    medium: self.media.toward(ray.direction.dot(self.normal)),
-                    ..ray
-                })
-            }
-        }
+        let Some(target) = target else {
+            return Some(self.spawn(direction));
+        };
+        let (rays, exists) = self.leaving().toward(target);
+        let [ray] = rays.lanes(|_| self);
+        exists.then_some(ray)
     }
 }

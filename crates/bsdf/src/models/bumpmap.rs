@@ -55,15 +55,15 @@ impl Description {
 
     /// The normal, of any length, in `frame`.
     fn normal<T: Textures>(&self, site: &ShadingContext<'_, T>, frame: Frame) -> Vec3 {
-        let moved = [site.dp_du, site.dp_dv];
-        let slope = site.textures.gradient(self.heights, &site.at, moved) * self.scale;
+        let moved = [site.vertex.dp_du, site.vertex.dp_dv];
+        let slope = site.textures.gradient(self.heights, &site.at(), moved) * self.scale;
         // Heights rise outward, seen from either side.
-        let side = 1.0_f32.copysign(frame.n.dot(site.shading_normal));
+        let side = 1.0_f32.copysign(frame.n.dot(site.vertex.shading.n));
         let n = frame.n * side;
-        let u = site.dp_du + n * (slope.x - n.dot(site.dp_du));
-        let v = site.dp_dv + n * (slope.y - n.dot(site.dp_dv));
+        let u = site.vertex.dp_du + n * (slope.x - n.dot(site.vertex.dp_du));
+        let v = site.vertex.dp_dv + n * (slope.y - n.dot(site.vertex.dp_dv));
         let bumped = u.cross(v);
-        let bumped = if bumped.dot(site.normal) < 0.0 {
+        let bumped = if bumped.dot(site.vertex.normal) < 0.0 {
             -bumped
         } else {
             bumped

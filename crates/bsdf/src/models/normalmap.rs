@@ -62,7 +62,7 @@ impl Description {
 
     /// The normal, of any length, in the surface's frame.
     fn normal<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Vec3 {
-        site.textures.colour(self.normals, &site.at) * 2.0 - 1.0
+        site.textures.colour(self.normals, &site.at()) * 2.0 - 1.0
     }
 
     /// The nested classic Phong material, tilted, if it is one.

@@ -13,11 +13,10 @@ use etalon_transport::{
 };
 
 /// A path that has reached a surface.
+#[derive(Debug)]
 pub(super) struct Arrived {
-    /// Its index.
-    pub(super) path: usize,
-    /// The ray that led there.
-    pub(super) ray: Ray,
+    /// The index of its ray, and in the list of paths not yet ended.
+    pub(super) segment: usize,
     pub(super) vertex: SurfaceInteraction,
 }
 
@@ -25,9 +24,9 @@ pub(super) struct Arrived {
 pub(crate) struct PathBatch<'w, W: World + 'w, S, C, const N: usize> {
     pub(crate) paths: ArrayVec<PathState<'w, W, S, C>, N>,
     /// Indices in `paths` of those not yet ended.
-    active: ArrayVec<usize, N>,
+    pub(super) active: ArrayVec<usize, N>,
     /// The next ray of each of these.
-    rays: ArrayVec<Ray, N>,
+    pub(super) rays: ArrayVec<Ray, N>,
     /// The nearest surface along it.
     hits: [Option<Hit>; N],
     /// Those that have reached a surface.
@@ -101,11 +100,10 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             Option<&Hit>,
         ) -> ControlFlow<Step, SurfaceInteraction>,
     ) {
-        for place in 0..self.active.len() {
-            let path = self.active[place];
-            let ray = self.rays[place];
-            match arrive(&mut self.paths[path], &ray, self.hits[place].as_ref()) {
-                ControlFlow::Continue(vertex) => self.arrived.push(Arrived { path, ray, vertex }),
+        for segment in 0..self.active.len() {
+            let (path, ray) = (self.active[segment], &self.rays[segment]);
+            match arrive(&mut self.paths[path], ray, self.hits[segment].as_ref()) {
+                ControlFlow::Continue(vertex) => self.arrived.push(Arrived { segment, vertex }),
                 ControlFlow::Break(step) => self.take(path, step),
             }
         }
@@ -119,8 +117,8 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         mut scatter: impl FnMut(&mut PathState<'w, W, S, C>, &Ray, &SurfaceInteraction) -> Step,
     ) {
         self.scatter_by_kind((world, config), |batch, place| {
-            let Arrived { path, ray, vertex } = &batch.arrived[place];
-            let path = *path;
+            let Arrived { segment, vertex } = &batch.arrived[place];
+            let (path, ray) = (batch.active[*segment], &batch.rays[*segment]);
             let step = scatter(&mut batch.paths[path], ray, vertex);
             batch.take(path, step);
         });

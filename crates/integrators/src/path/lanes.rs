@@ -1,7 +1,7 @@
 //! Paths at surfaces of one kind, scattered together in vector lanes.
 //!
 //! Lane i gets the bits that its path would get alone (see [`etalon_transport::LaneShading`]), so that it does not matter which
-//! paths meet. Those that are left over, and those at surfaces without a kind, are scattered one by one.
+//! paths meet. Few that are left over, and those at surfaces without a kind, are scattered one by one.
 
 use crate::path::batch::{Arrived, PathBatch};
 use crate::path::hooks::PathHooks;
@@ -13,16 +13,18 @@ use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::PathConfig;
 use arrayvec::ArrayVec;
 use etalon_math::float::ONE_MINUS_EPSILON;
-use etalon_math::lane::{F32x8, Lane, MOST_LANES, Mask, Select, Spectral, Vector, per_lane};
+use etalon_math::lane::{F32x8, Lane, Mask, Select, Spectral, Vector};
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, MediumInterface, ShadowQuery,
-    World,
+    LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, Leaving, LeavingRays,
+    MediumInterface, ShadowQuery, World,
 };
-use glam::Vec4;
 
 /// The lanes in use.
 type Lanes = F32x8;
+
+/// So many paths take as long in lanes as one by one.
+const ENOUGH: usize = 4;
 
 /// Connections of several vertices to lights, as [`crate::steps::light_connection::LightConnection`] describes them.
 struct LaneConnection<F: Lane> {
@@ -54,17 +56,17 @@ impl<F: Lane> LaneConnection<F> {
 }
 
 /// Several vertices of one kind, at which light is sampled.
-struct LaneVertex<'a, F: Lane, L: LaneShading> {
+struct LaneVertex<'v, 'a, F: Lane, L: LaneShading + 'a> {
     lanes: &'a L,
-    bsdf: L::Bsdf<'a, F>,
-    vertices: LaneVertices<'a>,
+    bsdf: &'v L::Bsdf<'a, F>,
+    vertices: LaneVertices<'v>,
     wo: F::Vector,
     from: LaneReceiver<F>,
     /// The paths that led there.
     before: PathThroughput<F>,
 }
 
-impl<F: Lane, L: LaneShading> LaneVertex<'_, F, L> {
+impl<F: Lane, L: LaneShading> LaneVertex<'_, '_, F, L> {
     /// The connection to a light sample.
     #[inline(always)]
     fn connect(&self, wanted: F::Mask, u_light: F, u: [F; 2]) -> LaneConnection<F> {
@@ -91,7 +93,7 @@ impl<F: Lane, L: LaneShading> LaneVertex<'_, F, L> {
     #[inline(always)]
     fn resample(
         &self,
-        events: &LaneEvents<F>,
+        events: &BounceSamples<F, [F; 2]>,
         shift: F,
         counts: F,
         most: u32,
@@ -153,28 +155,6 @@ impl<F: Lane, L: LaneShading> LaneVertex<'_, F, L> {
     }
 }
 
-/// The random numbers of several scattering events.
-struct LaneEvents<F> {
-    light: [F; 2],
-    direction: [F; 2],
-    light_choice: F,
-    lobe: F,
-    roulette: F,
-}
-
-impl<F: Lane> LaneEvents<F> {
-    #[inline(always)]
-    fn of_lanes(events: &[BounceSamples]) -> Self {
-        Self {
-            light: [0, 1].map(|k| F::from_fn(|i| events[i].light[k])),
-            direction: [0, 1].map(|k| F::from_fn(|i| events[i].direction[k])),
-            light_choice: F::from_fn(|i| events[i].light_choice),
-            lobe: F::from_fn(|i| events[i].lobe),
-            roulette: F::from_fn(|i| events[i].roulette),
-        }
-    }
-}
-
 impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S, C, N> {
     /// Scatters paths at surfaces that have a kind, as many together as there are lanes, and calls `alone` for every other one.
     #[inline]
@@ -190,9 +170,10 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         let mut groups: [ArrayVec<usize, { Lanes::WIDTH }>; LaneKind::COUNT] =
             core::array::from_fn(|_| ArrayVec::new());
         for place in 0..self.arrived.len() {
-            let Arrived { path, ray, vertex } = &self.arrived[place];
-            let last = self.paths[*path].is_last(config);
-            let stays = vertex.media == MediumInterface::within(ray.medium);
+            let Arrived { segment, vertex } = &self.arrived[place];
+            let last = self.paths[self.active[*segment]].is_last(config);
+            let medium = self.rays[*segment].medium;
+            let stays = vertex.media == MediumInterface::within(medium);
             match lanes.kind(vertex).filter(|_| stays && !last) {
                 None => alone(self, place),
                 Some(kind) => {
@@ -205,12 +186,19 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
                 }
             }
         }
-        for place in groups.iter().flatten() {
-            alone(self, *place);
+        for (kind, group) in groups.iter().enumerate() {
+            match group.len() < ENOUGH {
+                true => (group.iter()).for_each(|place| alone(self, *place)),
+                false => {
+                    let kind = LaneKind(kind as u8);
+                    self.scatter_together::<Lanes>((world, lanes, config), kind, group);
+                }
+            }
         }
     }
 
-    /// Scatters as many paths as there are lanes, at surfaces of one kind: the ones at these places of `arrived`.
+    /// Scatters up to as many paths as there are lanes, at surfaces of one kind: the ones at these places of `arrived`. What more
+    /// lanes there are repeat the last, and nothing becomes of them.
     #[inline(never)]
     fn scatter_together<F: Lane>(
         &mut self,
@@ -218,113 +206,119 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         kind: LaneKind,
         places: &[usize],
     ) {
-        let Self { paths, arrived, .. } = self;
-        let arrived = |i: usize| &arrived[places[i.min(F::WIDTH - 1)]];
-        let mut events = [BounceSamples::default(); MOST_LANES];
-        for (i, event) in events.iter_mut().enumerate().take(F::WIDTH) {
-            *event = paths[arrived(i).path].draw_event();
-        }
-        let random = LaneEvents::<F>::of_lanes(&events);
-        let path = |i: usize| &paths[arrived(i).path];
-        let vertices: [_; MOST_LANES] = core::array::from_fn(|i| &arrived(i).vertex);
-        let wavelengths: [_; MOST_LANES] = core::array::from_fn(|i| path(i).wavelengths);
+        let Self {
+            paths,
+            active,
+            rays,
+            arrived,
+            ..
+        } = self;
+        let count = places.len();
+        let arrived = F::array(|i| &arrived[places[i.min(count - 1)]]);
+        let arrived = arrived.as_ref();
+        let index = F::array(|i| active[arrived[i].segment]);
+        let index = index.as_ref();
+        let mut event = BounceSamples::default();
+        let random = BounceSamples::of_lanes(|i| {
+            if i < count {
+                event = paths[index[i]].draw_event();
+            }
+            event
+        });
+        let path = |i: usize| &paths[index[i]];
+        let vertex = |i: usize| &arrived[i].vertex;
+        let vertices = F::array(vertex);
+        let wavelengths = F::array(|i| path(i).wavelengths);
+        let wavelengths = wavelengths.as_ref();
         let vertices = LaneVertices {
-            vertices: &vertices[..F::WIDTH],
-            wavelengths: &wavelengths[..F::WIDTH],
+            vertices: vertices.as_ref(),
+            wavelengths,
         };
-        let wo = F::Vector::of_lanes(|i| -arrived(i).ray.direction);
+        let wo = -F::Vector::of_lanes(|i| rays[arrived[i].segment].direction);
         let bsdf = lanes.bsdf::<F>(kind, vertices, wo);
+        let leaving = Leaving::<F>::of_lanes(vertex);
         let hemisphere = bsdf.hemisphere(wo);
-        let mut throughput = PathThroughput::<F> {
-            beta: F::Spectrum::of_lanes(|i| path(i).throughput.beta),
-            r_u: F::Spectrum::of_lanes(|i| path(i).throughput.r_u),
-        };
+        let before = PathThroughput::<F>::of_lanes(|i| &path(i).throughput);
         let at = LaneVertex {
             lanes,
             vertices,
             wo,
             from: LaneReceiver {
-                position: F::Vector::of_lanes(|i| arrived(i).vertex.position),
-                normal: hemisphere
-                    .unwrap_or_else(|| F::Vector::of_lanes(|i| arrived(i).vertex.shading.n)),
+                position: leaving.position,
+                normal: hemisphere.unwrap_or_else(|| F::Vector::of_lanes(|i| vertex(i).shading.n)),
                 one_sided: F::Mask::splat(hemisphere.is_some()),
-                time: F::from_fn(|i| arrived(i).vertex.time),
+                time: F::from_fn(|i| vertex(i).time),
             },
-            before: throughput,
-            bsdf,
+            before,
+            bsdf: &bsdf,
         };
-        let counts = per_lane::<F, _>(|i| {
-            Candidates::at(path(i).candidates(config), world, &at.from.at_lane(i)).count()
-        });
-        let sample = at.bsdf.sample(wo, random.lobe, random.direction);
-        let eta = F::from_fn(|i| path(i).eta) * sample.eta;
-        throughput.scatter(sample.value, sample.chance);
-        let survival = throughput.survival(eta);
-        let survives = random.roulette.lt(survival);
+        let sample = bsdf.sample(wo, random.lobe, random.direction);
 
-        if at.bsdf.has_continuous() {
-            let connection = match counts.into_iter().max() {
-                Some(most) if most > 1 => {
-                    let mut shifts = [0.0; MOST_LANES];
-                    for i in (0..F::WIDTH).filter(|i| counts[*i] > 1) {
-                        shifts[i] = paths[arrived(i).path].sampler.next_1d();
-                    }
+        if bsdf.has_continuous() {
+            let counts = F::array(|i| {
+                Candidates::at(path(i).candidates(config), world, &at.from.at_lane(i)).count()
+            });
+            let counts = counts.as_ref();
+            let connection = match counts.iter().max() {
+                Some(&most) if most > 1 => {
+                    let shift = F::from_fn(|i| match counts[i] {
+                        0 | 1 => 0.0,
+                        _ if i >= count => 0.0,
+                        _ => paths[index[i]].sampler.next_1d(),
+                    });
                     let counts = F::from_fn(|i| counts[i] as f32);
-                    at.resample(&random, F::load(&shifts), counts, most)
+                    at.resample(&random, shift, counts, most)
                 }
                 _ => at.connect(F::Mask::splat(true), random.light_choice, random.light),
             };
-            for i in (0..F::WIDTH).filter(|i| connection.found.lane(*i)) {
-                let Arrived { path, vertex, .. } = arrived(i);
-                let direction = connection.direction.at_lane(i);
-                let has_target = connection.has_target.lane(i);
-                let target = has_target.then(|| connection.target.at_lane(i));
-                let Some(ray) = vertex.shadow_ray(direction, target) else {
-                    continue;
-                };
-                let depth = paths[*path].depth;
-                self.waiting.push((*path, connection.path.at_lane(i)));
+            let (has_target, infinite) =
+                (connection.has_target, leaving.spawn(connection.direction));
+            let (shadow_rays, found) = match has_target.any() {
+                false => (infinite, connection.found),
+                true => {
+                    let (segments, exist) = leaving.toward(connection.target);
+                    let rays = LeavingRays::choose(has_target, segments, infinite);
+                    (rays, connection.found & (exist | !has_target))
+                }
+            };
+            let (shadow_rays, unoccluded) = (shadow_rays.lanes(vertex), connection.path.lanes());
+            for i in (0..count).filter(|i| found.lane(*i)) {
+                self.waiting.push((index[i], unoccluded.as_ref()[i]));
                 self.shadow_rays.push(ShadowQuery {
-                    ray,
+                    ray: shadow_rays.as_ref()[i],
                     wavelengths: wavelengths[i],
-                    crossings: config.null_crossings(depth),
+                    crossings: config.null_crossings(paths[index[i]].depth),
                 });
             }
         }
 
-        for i in 0..F::WIDTH {
-            let Arrived {
-                path: index,
-                vertex,
-                ..
-            } = arrived(i);
-            let path = &mut paths[*index];
+        let mut after = before;
+        after.scatter(sample.value, sample.chance);
+        let eta = F::from_fn(|i| paths[index[i]].eta) * sample.eta;
+        let survival = after.survival(eta);
+        let played = F::Mask::from_fn(|i| paths[index[i]].depth >= config.limits.rr_depth);
+        let mut survived = after;
+        survived.roulette(survival);
+        after.beta = F::Spectrum::choose(played, survived.beta, after.beta);
+        let survives = !played | random.roulette.lt(survival);
+        let goes_on = sample.found & survives & !after.beta.is_zero();
+
+        let (after, next) = (after.lanes(), leaving.spawn(sample.wi).lanes(vertex));
+        let light_mis = LightMis::lanes(&before, &at.from, sample.chance.hero(), sample.is_delta);
+        for i in 0..count {
+            let path = &mut paths[index[i]];
             path.alpha = 1.0;
             if !sample.found.lane(i) {
                 continue;
             }
-            let is_delta = sample.is_delta.lane(i);
             path.scatter_count += 1;
-            path.scattered |= !is_delta;
-            path.light_mis = match is_delta {
-                true => LightMis::NONE,
-                false => LightMis {
-                    from: at.from.at_lane(i),
-                    r_l: path.throughput.r_u / sample.chance.hero().lane(i),
-                },
-            };
-            path.throughput = throughput.at_lane(i);
+            path.scattered |= !sample.is_delta.lane(i);
+            path.light_mis = light_mis.as_ref()[i];
+            path.throughput = after.as_ref()[i];
             path.eta = eta.lane(i);
-            if path.depth >= config.limits.rr_depth {
-                if !survives.lane(i) {
-                    continue;
-                }
-                path.throughput.roulette(survival.lane(i));
-            }
             path.depth += 1;
-            if path.throughput.beta != Vec4::ZERO {
-                self.continued
-                    .push((*index, vertex.spawn(sample.wi.at_lane(i))));
+            if goes_on.lane(i) {
+                self.continued.push((index[i], next.as_ref()[i]));
             }
         }
     }

@@ -10,6 +10,7 @@
 //! full depth on seven, but 1.26 with a lens (`depth-of-field`). Five jointly scrambled dimensions of Joe and Kuo
 //! (2008) for film, first light and lobe: 0.84 to 0.97, 0.98 to 1.02, and 1.26. So film and lens stay together.
 
+use etalon_math::lane::Lane;
 use etalon_sampling::Sampler;
 use glam::Vec2;
 
@@ -27,20 +28,48 @@ pub const SCATTERING: u32 = 8;
 /// Dimensions per scattering event.
 pub const PER_SCATTERING: u32 = 8;
 
-/// The random numbers of one scattering event, in the order of their dimensions. All of them
+/// The random numbers of one scattering event, or of several in lanes, in the order of their dimensions. All of them
 /// are drawn, used or not: that is cheaper than skipping some.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct BounceSamples {
+pub struct BounceSamples<F = f32, Pair = Vec2> {
     /// Direction toward a light, or for a light path the aperture position to connect with.
-    pub light: Vec2,
+    pub light: Pair,
     /// The scattered direction.
-    pub direction: Vec2,
+    pub direction: Pair,
     /// Selection of the light.
-    pub light_choice: f32,
+    pub light_choice: F,
     /// Selection of the lobe.
-    pub lobe: f32,
+    pub lobe: F,
     /// Russian roulette.
-    pub roulette: f32,
+    pub roulette: F,
+}
+
+impl<F: Lane> BounceSamples<F, [F; 2]> {
+    /// `event(i)` in lane i.
+    #[inline(always)]
+    pub(crate) fn of_lanes(mut event: impl FnMut(usize) -> BounceSamples) -> Self {
+        let [a, b, c, d, light_choice, lobe, roulette, _] = F::columns(|i| {
+            let event = event(i);
+            let ([a, b], [c, d]) = (event.light.to_array(), event.direction.to_array());
+            [
+                a,
+                b,
+                c,
+                d,
+                event.light_choice,
+                event.lobe,
+                event.roulette,
+                0.0,
+            ]
+        });
+        Self {
+            light: [a, b],
+            direction: [c, d],
+            light_choice,
+            lobe,
+            roulette,
+        }
+    }
 }
 
 impl BounceSamples {

@@ -18,7 +18,7 @@ pub(crate) struct LightConnection {
 }
 
 /// A path that ends at a light sample, before its shadow ray is traced.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct UnoccludedPath<F: Lane = f32> {
     /// The throughput of the whole path, emission included; the transmittance of the shadow ray is not.
     pub(crate) throughput: PathThroughput<F>,
@@ -69,13 +69,18 @@ impl<F: Lane> UnoccludedPath<F> {
         }
     }
 
-    /// The path in lane `index`.
-    #[inline]
-    pub(crate) fn at_lane(&self, index: usize) -> UnoccludedPath {
-        UnoccludedPath {
-            throughput: self.throughput.at_lane(index),
-            pdf_by_scattering: self.pdf_by_scattering.at_lane(index),
-        }
+    /// The path in each lane.
+    #[inline(always)]
+    pub(crate) fn lanes(&self) -> F::Array<UnoccludedPath> {
+        let throughput = self.throughput.lanes();
+        let by_scattering = F::Spectrum::pairs([self.pdf_by_scattering; 2]);
+        F::array(|i| {
+            let [pdf_by_scattering, _] = by_scattering.as_ref()[i];
+            UnoccludedPath {
+                throughput: throughput.as_ref()[i],
+                pdf_by_scattering,
+            }
+        })
     }
 }
 

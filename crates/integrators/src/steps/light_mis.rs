@@ -2,11 +2,14 @@
 //! find it. pbrt-v4 calls the ratio `r_l`.
 
 use crate::steps::path_throughput::PathThroughput;
-use etalon_transport::{BsdfSample, LightSampleContext, MediumId, SurfaceInteraction, World};
+use etalon_math::lane::{Lane, Mask, Spectral};
+use etalon_transport::{
+    BsdfSample, LaneReceiver, LightSampleContext, MediumId, SurfaceInteraction, World,
+};
 use glam::{Vec3, Vec4};
 
 /// The density of light sampling at the last vertex that is not a null interaction.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct LightMis {
     /// That vertex, as light sampling saw it.
     pub(crate) from: LightSampleContext,
@@ -43,6 +46,27 @@ impl LightMis {
                 r_l: before.r_u / chance,
             }
         }
+    }
+
+    /// The ratio in each lane where light was sampled for `from`, reached by `before`, and the direction that was sampled there
+    /// has this density, or a probability where it `is_delta`.
+    #[inline(always)]
+    pub(crate) fn lanes<F: Lane>(
+        before: &PathThroughput<F>,
+        from: &LaneReceiver<F>,
+        chance: F,
+        is_delta: F::Mask,
+    ) -> F::Array<Self> {
+        let r_l = F::Spectrum::pairs([before.r_u / chance; 2]);
+        let from = from.lanes();
+        F::array(|i| match is_delta.lane(i) {
+            true => Self::NONE,
+            false => {
+                let [r_l, _] = r_l.as_ref()[i];
+                let from = from.as_ref()[i];
+                Self { from, r_l }
+            }
+        })
     }
 
     #[inline]

@@ -73,13 +73,21 @@ impl PathThroughput {
 }
 
 impl<F: Lane> PathThroughput<F> {
-    /// The path in lane `index`.
-    #[inline]
-    pub fn at_lane(&self, index: usize) -> PathThroughput {
-        PathThroughput {
-            beta: self.beta.at_lane(index),
-            r_u: self.r_u.at_lane(index),
-        }
+    /// `path(i)` in lane i.
+    #[inline(always)]
+    pub fn of_lanes<'p>(path: impl Fn(usize) -> &'p PathThroughput) -> Self {
+        let [beta, r_u] = F::Spectrum::pairs_of_lanes(|i| [path(i).beta, path(i).r_u]);
+        Self { beta, r_u }
+    }
+
+    /// The path in each lane.
+    #[inline(always)]
+    pub fn lanes(&self) -> F::Array<PathThroughput> {
+        let pairs = F::Spectrum::pairs([self.beta, self.r_u]);
+        F::array(|i| {
+            let [beta, r_u] = pairs.as_ref()[i];
+            PathThroughput { beta, r_u }
+        })
     }
 
     /// Extends the path by an event with contribution `factor` and densities `chance` (that of the first wavelength

@@ -17,11 +17,9 @@ impl<F: Lane> LaneFrame<F> {
     /// `frame(i)` in lane i.
     #[inline(always)]
     pub fn of_lanes<'f>(frame: impl Fn(usize) -> &'f crate::Frame) -> Self {
-        Self {
-            s: F::Vector::of_lanes(|i| frame(i).s),
-            t: F::Vector::of_lanes(|i| frame(i).t),
-            n: F::Vector::of_lanes(|i| frame(i).n),
-        }
+        let [s, t] = F::Vector::pairs_of_lanes(|i| [frame(i).s, frame(i).t]);
+        let n = F::Vector::of_lanes(|i| frame(i).n);
+        Self { s, t, n }
     }
 
     /// Any frames with these unit normals (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").

@@ -38,6 +38,14 @@ impl Lane for f32 {
         to[0] = self;
     }
     #[inline(always)]
+    fn columns(mut row: impl FnMut(usize) -> [f32; 8]) -> [Self; 8] {
+        row(0)
+    }
+    #[inline(always)]
+    fn rows(columns: [Self; 8]) -> [[f32; 8]; 1] {
+        [columns]
+    }
+    #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         f32::mul_add(self, factor, term)
     }

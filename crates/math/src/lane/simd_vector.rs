@@ -134,6 +134,33 @@ macro_rules! simd_vector {
                 to[..$width].copy_from_slice(self.0.as_array());
             }
             #[inline(always)]
+            fn columns(mut row: impl FnMut(usize) -> [f32; 8]) -> [Self; 8] {
+                let mut columns = [[0.0; $width]; 8];
+                for block in 0..$width / 8 {
+                    let rows = core::array::from_fn(|i| wide::f32x8::new(row(8 * block + i)));
+                    let transposed = wide::f32x8::transpose(rows);
+                    for (column, part) in columns.iter_mut().zip(transposed) {
+                        column[8 * block..][..8].copy_from_slice(part.as_array());
+                    }
+                }
+                columns.map(|column| Self(wide::$wide_float::new(column)))
+            }
+            #[inline(always)]
+            fn rows(columns: [Self; 8]) -> [[f32; 8]; $width] {
+                let mut rows = [[0.0; 8]; $width];
+                for (block, rows) in rows.chunks_exact_mut(8).enumerate() {
+                    let part = |column: Self| {
+                        let numbers = column.0.as_array()[8 * block..].first_chunk();
+                        wide::f32x8::new(*numbers.expect("eight of as many as lanes"))
+                    };
+                    let transposed = wide::f32x8::transpose(columns.map(part));
+                    for (row, numbers) in rows.iter_mut().zip(transposed) {
+                        *row = *numbers.as_array();
+                    }
+                }
+                rows
+            }
+            #[inline(always)]
             fn mul_add(self, factor: Self, term: Self) -> Self {
                 if FUSES {
                     Self(self.0.mul_add(factor.0, term.0))

@@ -2,7 +2,7 @@
 //!
 //! Operations are written out: arrays of vectors that are mapped stay loops through memory.
 
-use super::{Lane, MOST_LANES, Select};
+use super::{Lane, Select};
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Sub};
 
@@ -45,11 +45,32 @@ pub trait Spectral<F: Lane>:
     /// `spectrum(i)` in lane i.
     #[inline(always)]
     fn of_lanes(spectrum: impl Fn(usize) -> glam::Vec4) -> Self {
-        let [mut a, mut b, mut c, mut d] = [[0.0; MOST_LANES]; 4];
-        for i in 0..F::WIDTH {
-            [a[i], b[i], c[i], d[i]] = spectrum(i).to_array();
-        }
-        Self::from_waves([F::load(&a), F::load(&b), F::load(&c), F::load(&d)])
+        let [a, b, c, d, ..] = F::columns(|i| {
+            let [a, b, c, d] = spectrum(i).to_array();
+            [a, b, c, d, 0.0, 0.0, 0.0, 0.0]
+        });
+        Self::from_waves([a, b, c, d])
+    }
+
+    /// Two spectra, `pair(i)` in lane i.
+    #[inline(always)]
+    fn pairs_of_lanes(pair: impl Fn(usize) -> [glam::Vec4; 2]) -> [Self; 2] {
+        let [a, b, c, d, e, f, g, h] = F::columns(|i| {
+            let [[a, b, c, d], [e, f, g, h]] = pair(i).map(|spectrum| spectrum.to_array());
+            [a, b, c, d, e, f, g, h]
+        });
+        [[a, b, c, d], [e, f, g, h]].map(Self::from_waves)
+    }
+
+    /// The pair of spectra in each lane.
+    #[inline(always)]
+    fn pairs(pair: [Self; 2]) -> F::Array<[glam::Vec4; 2]> {
+        let [[a, b, c, d], [e, f, g, h]] = pair.map(Self::waves);
+        let rows = F::rows([a, b, c, d, e, f, g, h]);
+        F::array(|i| {
+            let [a, b, c, d, e, f, g, h] = rows.as_ref()[i];
+            [[a, b, c, d], [e, f, g, h]].map(glam::Vec4::from)
+        })
     }
 
     /// The spectrum in lane `index`.
@@ -79,6 +100,9 @@ pub trait Spectral<F: Lane>:
     fn magnitudes(self) -> Self {
         self.at_each(F::abs)
     }
+
+    /// That of `yes` where the quantity is below 0, that of `no` elsewhere.
+    fn where_negative(self, yes: Self, no: Self) -> Self;
 
     /// Each, or `least` if that is greater; NaN remains.
     fn at_least(self, least: F) -> Self;
@@ -151,6 +175,14 @@ impl Spectral<f32> for glam::Vec4 {
         self.max_element()
     }
     #[inline(always)]
+    fn magnitudes(self) -> Self {
+        self.abs()
+    }
+    #[inline(always)]
+    fn where_negative(self, yes: Self, no: Self) -> Self {
+        Self::select(self.cmplt(Self::ZERO), yes, no)
+    }
+    #[inline(always)]
     fn at_least(self, least: f32) -> Self {
         let least = Self::splat(least);
         Self::select(least.cmpgt(self), least, self)
@@ -188,6 +220,17 @@ impl<F: Lane> Spectral<F> for Spectrum<F> {
     fn greatest(self) -> F {
         let [a, b, c, d] = self.0;
         a.max(b).max(c.max(d))
+    }
+    #[inline(always)]
+    fn where_negative(self, yes: Self, no: Self) -> Self {
+        let ([a, b, c, d], [e, f, g, h], [i, j, k, l]) = (self.0, yes.0, no.0);
+        let select = |x: F, yes, no| x.lt(F::ZERO).select(yes, no);
+        Self([
+            select(a, e, i),
+            select(b, f, j),
+            select(c, g, k),
+            select(d, h, l),
+        ])
     }
     #[inline(always)]
     fn at_least(self, least: F) -> Self {

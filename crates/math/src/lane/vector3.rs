@@ -1,6 +1,6 @@
 //! Points, directions and normals in lanes.
 
-use super::{Lane, MOST_LANES, Select};
+use super::{Lane, Select};
 use core::fmt::Debug;
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -23,11 +23,21 @@ pub trait Vector<F: Lane>:
     /// `vector(i)` in lane i.
     #[inline(always)]
     fn of_lanes(vector: impl Fn(usize) -> glam::Vec3) -> Self {
-        let [mut x, mut y, mut z] = [[0.0; MOST_LANES]; 3];
-        for i in 0..F::WIDTH {
-            [x[i], y[i], z[i]] = vector(i).to_array();
-        }
-        Self::from_xyz(F::load(&x), F::load(&y), F::load(&z))
+        let [x, y, z, ..] = F::columns(|i| {
+            let [x, y, z] = vector(i).to_array();
+            [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0]
+        });
+        Self::from_xyz(x, y, z)
+    }
+
+    /// Two vectors, `pair(i)` in lane i.
+    #[inline(always)]
+    fn pairs_of_lanes(pair: impl Fn(usize) -> [glam::Vec3; 2]) -> [Self; 2] {
+        let [a, b, c, d, e, f, ..] = F::columns(|i| {
+            let [[a, b, c], [d, e, f]] = pair(i).map(|vector| vector.to_array());
+            [a, b, c, d, e, f, 0.0, 0.0]
+        });
+        [[a, b, c], [d, e, f]].map(|[x, y, z]| Self::from_xyz(x, y, z))
     }
 
     /// The vector in lane `index`.

@@ -2,8 +2,8 @@
 
 use etalon_math::lane::{F32x8, F32x16, Lane, LaneFrame, Mask, Select, Spectral, Vector};
 use etalon_math::offset::offset_origins;
-use etalon_math::{Frame, offset_origin};
-use glam::{Vec3, Vec4};
+use etalon_math::{Frame, FromAffine, Transform, offset_origin};
+use glam::{DAffine3, DMat3, Vec3, Vec4};
 use proptest::prelude::*;
 
 fn number() -> impl Strategy<Value = f32> {
@@ -27,6 +27,12 @@ fn vectors_agree<F: Lane>(v: &[Vec3], s: &[Vec4]) {
         .map(|v| Frame::from_normal(v.normalize_or(Vec3::Z)))
         .collect();
     let frame = LaneFrame::<F>::of_lanes(|i| &frames[i]);
+    let pairs = F::Spectrum::pairs([p, q]);
+    let both = F::Vector::pairs_of_lanes(|i| [v[i], v[F::WIDTH + i]]);
+    let map = Transform::from_affine(&DAffine3::from_mat3(DMat3::from_cols_array(&[
+        0.3, 0.5, -1.0, 2.0, 0.1, 0.7, -0.2, 0.9, 1.3,
+    ])));
+    let mapped = map.vectors::<F>(a);
     let moved = offset_origins::<F>(a, b.magnitudes(), frame.n, b);
     for i in 0..F::WIDTH {
         let (x, y) = (v[i], v[F::WIDTH + i]);
@@ -47,6 +53,9 @@ fn vectors_agree<F: Lane>(v: &[Vec3], s: &[Vec4]) {
         };
         vector(a + b, x + y);
         vector(a - b, x - y);
+        vector(both[0], x);
+        vector(both[1], y);
+        vector(mapped, map.vector(x));
         vector(-a, -x);
         vector(a * b.z(), x * y.z);
         vector(a.over(b.norm()), x / y.length());
@@ -79,6 +88,11 @@ fn vectors_agree<F: Lane>(v: &[Vec3], s: &[Vec4]) {
                 );
             }
         };
+        assert_eq!(pairs.as_ref()[i], [x, y]);
+        spectrum(
+            p.where_negative(q, p),
+            Vec4::select(x.cmplt(Vec4::ZERO), y, x),
+        );
         spectrum(p + q, x + y);
         spectrum(p - q, x - y);
         spectrum(p * q, x * y);
@@ -117,4 +131,24 @@ proptest! {
         vectors_agree::<F32x8>(&v, &s);
         vectors_agree::<F32x16>(&v, &s);
     }
+}
+
+/// Numbers that tell lane and column.
+#[test]
+fn rows_become_columns_and_rows_again() {
+    fn check<F: Lane>() {
+        let row = |i: usize| core::array::from_fn(|k| (10 * i + k) as f32);
+        let columns = F::columns(row);
+        for (k, column) in columns.iter().enumerate() {
+            for i in 0..F::WIDTH {
+                assert_eq!(column.lane(i), (10 * i + k) as f32);
+            }
+        }
+        for (i, numbers) in F::rows(columns).as_ref().iter().enumerate() {
+            assert_eq!(*numbers, row(i));
+        }
+    }
+    check::<f32>();
+    check::<F32x8>();
+    check::<F32x16>();
 }

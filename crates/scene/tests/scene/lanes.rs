@@ -56,7 +56,7 @@ fn compare<F: Lane>(world: &Scene, reach: f32, random: &mut impl Sampler) {
 
 /// Alone and together. Mutants rejected: a near receiver that samples by area, radiance on the back of a lamp, a placed lamp where
 /// its shape was, the light of another lane's choice, a density without the probability of the light, one sky of two that is not
-/// the sum.
+/// the sum, a texel of the next row.
 #[test]
 fn lanes_sample_lights_as_one_by_one() {
     let mut random = Independent::from_key(1);
@@ -65,6 +65,11 @@ fn lanes_sample_lights_as_one_by_one() {
     let varied = "<shape type=\"sphere\"><point name=\"center\" x=\"2\" y=\"0\" z=\"1\"/><emitter type=\"area\">\
                   <texture type=\"checkerboard\" name=\"radiance\"/></emitter></shape>";
     let sky = "<emitter type=\"constant\"/>";
+    let map = format!(
+        "<emitter type=\"envmap\"><string name=\"filename\" value=\"{}/../../scenes/spheres/sky.exr\"/>\
+         <transform name=\"to_world\"><rotate y=\"0.6\" x=\"0.8\" angle=\"70\"/></transform></emitter>",
+        env!("CARGO_MANIFEST_DIR")
+    );
     let sun = "<emitter type=\"directional\"><vector name=\"direction\" x=\"1\" y=\"2\" z=\"-1\"/></emitter>";
     let point =
         "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"1\" z=\"2\"/></emitter>";
@@ -76,10 +81,12 @@ fn lanes_sample_lights_as_one_by_one() {
         of(&[disk]),
         of(&[varied]),
         of(&[sky]),
+        of(&[&map]),
         of(&[sun]),
         of(&[LAMP, LAMP, ball]),
         of(&[LAMP, MOVED, disk, ball, varied, sky, sun, point]),
         of(&[LAMP, sky, sky]),
+        of(&[LAMP, &map, ball]),
         of(&[&LAMP.repeat(12), ball, sky]),
     ];
     for lights in &scenes {

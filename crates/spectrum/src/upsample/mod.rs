@@ -12,6 +12,7 @@ pub mod fit;
 pub mod table;
 
 use crate::{SpectrumError, error};
+use etalon_math::lane::{Lane, Spectral};
 use glam::Vec4;
 
 /// Middle of the rendered wavelengths, nm.
@@ -62,19 +63,24 @@ impl RgbCoefficients {
     /// The spectrum at four wavelengths in nm.
     #[inline]
     pub fn eval(&self, lambda: Vec4) -> Vec4 {
-        let [c0, c1, c2] = self.0;
-        let t = (lambda - CENTRE) * (1.0 / HALF_RANGE);
-        sigmoid((t * c0 + c1) * t + c2)
+        Self::eval_lanes::<f32>(self.0, lambda)
+    }
+
+    /// Spectra with these coefficients, each at its wavelengths.
+    #[inline(always)]
+    pub fn eval_lanes<F: Lane>([c0, c1, c2]: [F; 3], lambda: F::Spectrum) -> F::Spectrum {
+        let t = (lambda - F::splat(CENTRE)) * F::splat(1.0 / HALF_RANGE);
+        sigmoid::<F>((t * c0 + c1) * t + c2)
     }
 }
 
 /// S(x) = ½ + x/(2 √(1 + x²)), written so that neither end cancels: with r = √(1 + x²),
 /// S(−|x|) = 1/(2 r (r + |x|)) and S(|x|) = 1 − S(−|x|).
-#[inline]
-fn sigmoid(x: Vec4) -> Vec4 {
-    let root = (x * x + 1.0).sqrt();
-    let low = 0.5 / (root * (root + x.abs()));
-    Vec4::select(x.cmplt(Vec4::ZERO), low, 1.0 - low)
+#[inline(always)]
+fn sigmoid<F: Lane>(x: F::Spectrum) -> F::Spectrum {
+    let root = (x * x + F::ONE).square_roots();
+    let low = F::Spectrum::uniform(F::splat(0.5)) / (root * (root + x.magnitudes()));
+    x.where_negative(low, F::Spectrum::uniform(F::ONE) - low)
 }
 
 /// A spectrum of an RGB colour of any brightness: a scale times values in [0, 1].
