@@ -168,14 +168,20 @@ impl Shapes for Geometry {
     }
 
     #[inline]
-    fn lanes_toward<F: Lane>(
+    fn are_alike(&self, shapes: [ShapeId; 2]) -> bool {
+        let moves = |shape: ShapeId| self.attachments[shape.0 as usize].carrier.is_some();
+        let [a, b] = shapes.map(|shape| self.shape(shape));
+        !shapes.into_iter().any(moves) && a.is_alike(b)
+    }
+
+    #[inline]
+    fn points_toward<F: Lane>(
         &self,
-        shape: ShapeId,
+        shape: impl Fn(usize) -> ShapeId,
         from: &LaneReceiver<F>,
         u: [F; 2],
-    ) -> Option<LanePoint<F>> {
-        let carried = self.attachments[shape.0 as usize].carrier.is_some();
-        (!carried).then(|| self.shape(shape).lanes_toward(from, u))?
+    ) -> LanePoint<F> {
+        Shape::points_toward(|i| self.shape(shape(i)), from, u)
     }
 
     fn density_toward(&self, shape: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32 {

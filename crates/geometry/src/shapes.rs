@@ -14,6 +14,7 @@ pub mod cylinder;
 pub mod disk;
 pub mod extrusion;
 pub mod implicit;
+mod lane_shapes;
 pub mod linear_curve;
 pub mod mesh;
 mod net;
@@ -40,11 +41,8 @@ use curves::Curves;
 use cylinder::Cylinder;
 use disk::Disk;
 use etalon_math::DirectionCone;
-use etalon_math::lane::{Lane, Select};
 use etalon_params::Params;
-use etalon_transport::{
-    Build, LanePoint, LaneReceiver, LightSampleContext, SampledPoint, SurfacePoint,
-};
+use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
 use extrusion::Extrusion;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use implicit::Implicit;
@@ -395,20 +393,6 @@ impl Shape {
             sampled = None;
         }
         sampled
-    }
-
-    /// The same in lanes; `None` if points must be chosen one by one.
-    #[inline]
-    pub(crate) fn lanes_toward<F: Lane>(
-        &self,
-        from: &LaneReceiver<F>,
-        u: [F; 2],
-    ) -> Option<LanePoint<F>> {
-        let mut point = ask!(self, shape => ShapeModel::lanes_toward(shape, from, u))?;
-        let density = point.density;
-        let finite = density.gt(F::ZERO) & density.lt(F::splat(f32::INFINITY));
-        point.density = finite.select(density, F::ZERO);
-        Some(point)
     }
 
     /// The density per unit solid angle with which [`Shape::sample_toward`] from `from` chooses

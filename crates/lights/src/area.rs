@@ -97,10 +97,13 @@ impl LightModel for AreaLight {
         u: Vec2,
     ) -> Option<LightSample> {
         // What varies over the shape needs more of a point than its place.
-        let lane = || scene.lanes_toward::<f32>(self.shape, &from.broadcast(), u.to_array());
-        let (point, place) = match (!self.varies).then(lane).flatten() {
-            Some(point) => (point, anywhere()),
-            None => {
+        let (point, place) = match self.is_alike(self, scene) {
+            true => {
+                let from = from.broadcast();
+                let point = scene.points_toward::<f32>(|_| self.shape, &from, u.to_array());
+                (point, anywhere())
+            }
+            false => {
                 let SampledPoint { point, density } = scene.sample_toward(self.shape, from, u)?;
                 let seen = LanePoint {
                     position: point.position,
@@ -129,25 +132,27 @@ impl LightModel for AreaLight {
     }
 
     #[inline]
-    fn sample_lanes<F: Lane>(
-        &self,
+    fn is_alike(&self, other: &Self, shapes: &impl Shapes) -> bool {
+        !self.varies && !other.varies && shapes.are_alike([self.shape, other.shape])
+    }
+
+    #[inline]
+    fn sample_lanes<'l, F: Lane>(
+        light: impl Fn(usize) -> &'l Self,
         scene: &(impl Textures + Shapes),
         (from, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
         wanted: F::Mask,
         u: [F; 2],
-    ) -> Option<LaneLightSample<F>> {
-        if self.varies {
-            return None;
-        }
-        let point = scene.lanes_toward(self.shape, from, u)?;
+    ) -> LaneLightSample<F> {
+        let point = scene.points_toward(|i| light(i).shape, from, u);
         let (found, direction, target) = connected(&point, from.position);
         let at = anywhere();
         let shines = wanted & found & point.normal.dot_product(-direction).gt(F::ZERO);
         let radiance = |i: usize| match shines.lane(i) {
-            true => scene.spectrum(self.radiance, &at, wavelengths[i].lambda),
+            true => scene.spectrum(light(i).radiance, &at, wavelengths[i].lambda),
             false => Vec4::ZERO,
         };
-        Some(LaneLightSample {
+        LaneLightSample {
             found,
             direction,
             target,
@@ -155,7 +160,7 @@ impl LightModel for AreaLight {
             radiance: F::Spectrum::of_lanes(radiance),
             chance: point.density,
             is_delta: F::Mask::splat(false),
-        })
+        }
     }
 
     #[inline]

@@ -138,27 +138,31 @@ impl LightModel for ConstantLight {
         })
     }
 
+    fn is_alike(&self, other: &Self, _: &impl Shapes) -> bool {
+        self == other
+    }
+
     #[inline]
-    fn sample_lanes<F: Lane>(
-        &self,
+    fn sample_lanes<'l, F: Lane>(
+        light: impl Fn(usize) -> &'l Self,
         textures: &(impl Textures + Shapes),
         (from, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
         wanted: F::Mask,
         u: [F; 2],
-    ) -> Option<LaneLightSample<F>> {
+    ) -> LaneLightSample<F> {
         let direction = direction_toward(from, u);
         let density = density_toward(from, direction);
         let radiance = |i: usize| match wanted.lane(i) {
-            true => self.background(textures, Vec3::ZERO, &wavelengths[i]),
+            true => light(i).background(textures, Vec3::ZERO, &wavelengths[i]),
             false => Vec4::ZERO,
         };
-        Some(LaneLightSample {
+        LaneLightSample {
             found: density.gt(F::ZERO),
             direction,
             radiance: F::Spectrum::of_lanes(radiance),
             chance: density,
             ..LaneLightSample::none()
-        })
+        }
     }
 
     #[inline]

@@ -341,24 +341,31 @@ impl LightModel for EnvironmentMap {
         Some(sky::sample(direction, radiance, Density::uniform(density)))
     }
 
+    fn is_alike(&self, other: &Self, _: &impl Shapes) -> bool {
+        core::ptr::eq(self, other)
+    }
+
     #[inline]
-    fn sample_lanes<F: Lane>(
-        &self,
+    fn sample_lanes<'l, F: Lane>(
+        light: impl Fn(usize) -> &'l Self,
         _: &(impl Textures + Shapes),
         (_, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
         wanted: F::Mask,
         u: [F; 2],
-    ) -> Option<LaneLightSample<F>> {
+    ) -> LaneLightSample<F> {
+        let map = light(0);
         // Receivers in lanes combine it with scattering.
-        let directions = self.tables.combined.as_deref()?;
-        let (direction, place, density) = self.choose(directions, wanted, u);
-        Some(LaneLightSample {
+        let Some(directions) = map.tables.combined.as_deref() else {
+            return LaneLightSample::none();
+        };
+        let (direction, place, density) = map.choose(directions, wanted, u);
+        LaneLightSample {
             found: density.gt(F::ZERO),
             direction,
-            radiance: self.radiance(place, |i| wavelengths[i].lambda),
+            radiance: map.radiance(place, |i| wavelengths[i].lambda),
             chance: density,
             ..LaneLightSample::none()
-        })
+        }
     }
 
     #[inline]

@@ -11,6 +11,7 @@
 //! | `directional` | irradiance on a surface perpendicular to the light, W·m⁻²·nm⁻¹ |
 //! | `constant`, `envmap`, `sunsky` | radiance from infinity, W·m⁻²·sr⁻¹·nm⁻¹ |
 
+mod alike;
 pub mod area;
 pub mod bounding_sphere;
 pub mod constant;

@@ -45,6 +45,36 @@ macro_rules! lights {
             }
         }
 
+        impl Light {
+            /// Whether it can be sampled in lanes together with another light; with itself, whether in lanes at all.
+            pub(crate) fn is_alike(&self, other: &Self, shapes: &impl Shapes) -> bool {
+                match (self, other) {
+                    $((Self::$kind(it), Self::$kind(other)) => it.is_alike(other, shapes),)*
+                    _ => false,
+                }
+            }
+
+            /// Samples directions to `light(i)` in lane i, which are all alike, in the lanes where they are `wanted` at least.
+            #[inline]
+            pub(crate) fn sample_lanes<'l, F: Lane>(
+                light: impl Fn(usize) -> &'l Self,
+                scene: &(impl Textures + Shapes),
+                (from, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
+                wanted: F::Mask,
+                u: [F; 2],
+            ) -> LaneLightSample<F> {
+                match light(0) {
+                    $(Self::$kind(_) => {
+                        let own = |i: usize| match light(i) {
+                            Self::$kind(own) => own,
+                            _ => unreachable!("all lights are alike"),
+                        };
+                        <$model as LightModel>::sample_lanes(own, scene, (from, wavelengths), wanted, u)
+                    })*
+                }
+            }
+        }
+
         /// Dispatches to the model.
         macro_rules! ask {
             ($light:expr, $it:ident => $answer:expr) => {
@@ -191,18 +221,6 @@ impl Light {
         u: Vec2,
     ) -> Option<LightSample> {
         ask!(self, light => light.sample(scene, from, wavelengths, u))
-    }
-
-    /// Samples directions in lanes, where they are `wanted` at least; `None` if it has none.
-    #[inline]
-    pub fn sample_lanes<F: Lane>(
-        &self,
-        scene: &(impl Textures + Shapes),
-        (from, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
-        wanted: F::Mask,
-        u: [F; 2],
-    ) -> Option<LaneLightSample<F>> {
-        ask!(self, light => light.sample_lanes(scene, (from, wavelengths), wanted, u))
     }
 
     /// Whether all its samples bring `from` the same irradiance if nothing is in the way.

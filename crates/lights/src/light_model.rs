@@ -49,16 +49,24 @@ pub(crate) trait LightModel {
         u: Vec2,
     ) -> Option<LightSample>;
 
-    /// Samples directions in lanes, where they are `wanted` at least; `None` if it has none.
+    /// Whether it can be sampled in lanes together with another light; with itself, whether in lanes at all.
     #[inline]
-    fn sample_lanes<F: Lane>(
-        &self,
+    fn is_alike(&self, _other: &Self, _: &impl Shapes) -> bool {
+        false
+    }
+
+    /// Samples directions to `light(i)` in lane i, which are all alike, in the lanes where they are `wanted` at least.
+    fn sample_lanes<'l, F: Lane>(
+        _light: impl Fn(usize) -> &'l Self,
         _: &(impl Textures + Shapes),
         _: (&LaneReceiver<F>, &[Wavelengths]),
-        _: F::Mask,
+        _wanted: F::Mask,
         _u: [F; 2],
-    ) -> Option<LaneLightSample<F>> {
-        None
+    ) -> LaneLightSample<F>
+    where
+        Self: 'l,
+    {
+        unreachable!("it is sampled one by one")
     }
 
     /// Whether all its samples bring `from` the same irradiance if nothing is in the way.

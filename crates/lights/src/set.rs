@@ -1,16 +1,15 @@
 //! All lights of a scene.
 
+use crate::alike;
 use crate::{
     BoundingSphere, Candidate, Far, Light, LightChoice, LightDescription, LightSampler,
     LightSamplerKind,
 };
-use etalon_math::lane::{Int, Lane, Mask};
 use etalon_math::{DeltaProbability, Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Emission, EmissionPdf, LaneLightSample, LaneReceiver, LightCount, LightId, LightKind,
-    LightSample, LightSampleContext, LightVariety, SamplePdf, Shapes, SurfaceInteraction,
-    SurfacePoint, Textures,
+    Emission, EmissionPdf, LightCount, LightId, LightKind, LightSample, LightSampleContext,
+    LightVariety, SamplePdf, Shapes, SurfaceInteraction, SurfacePoint, Textures,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -19,12 +18,14 @@ use glam::{Vec2, Vec3, Vec4};
 #[derive(Clone, Debug)]
 pub struct LightSet {
     lights: Vec<Light>,
+    /// For each, the first that can be sampled in lanes together with it; none if it is sampled by itself.
+    pub(crate) alike: Vec<LightId>,
     /// The lights that rays see at infinity.
     backgrounds: Vec<LightId>,
     powers: Vec<f64>,
-    selector: LightSampler,
+    pub(crate) selector: LightSampler,
     /// The only light that is ever chosen.
-    lone: Option<LightId>,
+    pub(crate) lone: Option<LightId>,
     bounds: BoundingSphere,
 }
 
@@ -41,6 +42,7 @@ impl LightSet {
             .into_iter()
             .map(|description| (description.light, description.sampling_weight))
             .unzip();
+        let alike = alike::alike(&lights, scene);
         let powers: Vec<f64> = lights.iter().map(|l| l.power(scene, &bounds)).collect();
         let backgrounds = (0..lights.len())
             .filter(|&i| lights[i].is_background())
@@ -66,6 +68,7 @@ impl LightSet {
             selector,
             lone,
             lights,
+            alike,
             backgrounds,
             powers,
             bounds,
@@ -179,7 +182,7 @@ impl LightSet {
 
     /// The sample of a light that has been chosen.
     #[inline]
-    fn sample_chosen(
+    pub(crate) fn sample_chosen(
         &self,
         scene: &(impl Textures + Shapes),
         choice: LightChoice,
@@ -205,59 +208,8 @@ impl LightSet {
     /// Whether a sample, at infinity or not, is of several skies: seen in one direction, they are one technique, since a ray that
     /// goes there sees all of them, whichever of them chose it.
     #[inline]
-    fn are_one(&self, at_infinity: bool) -> bool {
+    pub(crate) fn are_one(&self, at_infinity: bool) -> bool {
         at_infinity && self.backgrounds.len() > 1
-    }
-
-    /// [`LightSet::sample`] for several receivers, in the lanes where it is `wanted`.
-    #[inline]
-    pub fn sample_lanes<F: Lane>(
-        &self,
-        scene: &(impl Textures + Shapes),
-        (from, wavelengths): (&LaneReceiver<F>, &[Wavelengths]),
-        wanted: F::Mask,
-        u_light: F,
-        u: [F; 2],
-    ) -> LaneLightSample<F> {
-        if let Some(light) = self.lone
-            && let Some(sample) =
-                (self.get(light)).sample_lanes(scene, (from, wavelengths), wanted, u)
-        {
-            // It is chosen with probability 1.
-            return sample;
-        }
-        let choice = self.selector.choose_lanes(from, u_light);
-        let chosen = choice.found & wanted;
-        let mut sample = LaneLightSample::none();
-        // Lanes whose light must be sampled by itself.
-        let mut alone = 0;
-        let mut left = chosen.bits();
-        while left != 0 {
-            let light = choice.light.lane(left.trailing_zeros() as usize);
-            let lanes = chosen & choice.light.eq(F::Int::splat(light));
-            left &= !lanes.bits();
-            let light = self.get(LightId(light));
-            let one = self.are_one(light.is_background());
-            match light
-                .sample_lanes(scene, (from, wavelengths), lanes, u)
-                .filter(|_| !one)
-            {
-                Some(found) => sample = LaneLightSample::choose(lanes, found, sample),
-                None => alone |= lanes.bits(),
-            }
-        }
-        sample.chance = sample.chance * choice.probability;
-        if alone == 0 {
-            return sample;
-        }
-        let is_alone = |i: usize| alone >> i & 1 != 0;
-        let by_itself = LaneLightSample::of_lanes(|i| {
-            let u = Vec2::from(u.map(|u| u.lane(i)));
-            let at =
-                |choice| self.sample_chosen(scene, choice, &from.at_lane(i), &wavelengths[i], u);
-            is_alone(i).then(|| at(choice.at_lane(i))).flatten()
-        });
-        LaneLightSample::choose(F::Mask::from_fn(is_alone), by_itself, sample)
     }
 
     /// How samples of [`LightSet::sample`] from `from` vary.

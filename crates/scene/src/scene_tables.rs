@@ -76,13 +76,18 @@ impl Shapes for SceneTables {
         self.geometry.sample_toward(shape, from, u)
     }
 
-    fn lanes_toward<F: Lane>(
+    fn are_alike(&self, shapes: [ShapeId; 2]) -> bool {
+        self.geometry.are_alike(shapes)
+    }
+
+    #[inline]
+    fn points_toward<F: Lane>(
         &self,
-        shape: ShapeId,
+        shape: impl Fn(usize) -> ShapeId,
         from: &LaneReceiver<F>,
         u: [F; 2],
-    ) -> Option<LanePoint<F>> {
-        self.geometry.lanes_toward(shape, from, u)
+    ) -> LanePoint<F> {
+        self.geometry.points_toward(shape, from, u)
     }
 
     #[inline]

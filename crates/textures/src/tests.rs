@@ -108,13 +108,17 @@ impl Shapes for OneShape {
     fn sample_toward(&self, _: ShapeId, _: &LightSampleContext, _: Vec2) -> Option<SampledPoint> {
         None
     }
-    fn lanes_toward<F: Lane>(
+    fn are_alike(&self, _: [ShapeId; 2]) -> bool {
+        false
+    }
+
+    fn points_toward<F: Lane>(
         &self,
-        _: ShapeId,
+        _: impl Fn(usize) -> ShapeId,
         _: &LaneReceiver<F>,
         _: [F; 2],
-    ) -> Option<LanePoint<F>> {
-        None
+    ) -> LanePoint<F> {
+        unreachable!("its points are chosen one by one")
     }
     fn density_toward(&self, _: ShapeId, _: &LightSampleContext, _: &SurfacePoint) -> f32 {
         0.0

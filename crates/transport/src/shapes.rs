@@ -79,13 +79,16 @@ pub trait Shapes {
         u: Vec2,
     ) -> Option<SampledPoint>;
 
-    /// The same in lanes; `None` if the shape's points must be chosen one by one.
-    fn lanes_toward<F: Lane>(
+    /// Whether points of both shapes can be chosen in lanes together; of a shape and itself, whether in lanes at all.
+    fn are_alike(&self, shapes: [ShapeId; 2]) -> bool;
+
+    /// Points of `shape(i)` in lane i, which are all alike, each chosen for a receiver.
+    fn points_toward<F: Lane>(
         &self,
-        shape: ShapeId,
+        shape: impl Fn(usize) -> ShapeId,
         from: &LaneReceiver<F>,
         u: [F; 2],
-    ) -> Option<LanePoint<F>>;
+    ) -> LanePoint<F>;
 
     /// The density (sr⁻¹) with which [`Shapes::sample_toward`] from `from` chooses `at`.
     fn density_toward(&self, shape: ShapeId, from: &LightSampleContext, at: &SurfacePoint) -> f32;

@@ -134,42 +134,53 @@ impl Rectangle {
     #[inline]
     fn seen_nearby(&self, from: Vec3) -> Option<SphericalRectangle> {
         let corner = self.corner - from;
-        (self.right_angled && self.sides.is_near::<f32>(corner))
+        (self.right_angled && self.sides.is_near(corner))
             .then(|| SphericalRectangle::seen(corner, &self.sides))
             .flatten()
     }
 
-    /// How receivers see it from afar, each with a normal, or zero for none.
-    #[inline(always)]
-    fn seen_from_afar<F: Lane>(&self, from: F::Vector, normal: F::Vector) -> RectangleView<F> {
-        let corner = F::Vector::broadcast(self.corner) - from;
-        RectangleView::new(corner, self.edges.map(F::Vector::broadcast), normal)
+    /// How a receiver with a normal, or zero for none, sees it from afar.
+    #[inline]
+    fn seen_from_afar(&self, from: Vec3, normal: Vec3) -> RectangleView<f32> {
+        RectangleView::new(self.corner - from, self.edges, normal)
     }
 
-    /// The density (sr⁻¹) of points chosen with the density `density` on the unit square.
-    #[inline(always)]
-    fn per_solid_angle<F: Lane>(&self, density: F, from: F::Vector, position: F::Vector) -> F {
-        let normal = F::Vector::broadcast(self.normal);
-        density * area_density_toward::<F>(self.area, from, position, normal)
+    /// The density (sr⁻¹) of a point chosen with the density `density` on the unit square.
+    #[inline]
+    fn per_solid_angle(&self, density: f32, from: Vec3, position: Vec3) -> f32 {
+        density * area_density_toward::<f32>(self.area as f32, from, position, self.normal)
     }
 
-    /// Points chosen for receivers, each with a normal, or zero for none.
+    /// Points of `rectangle(i)` in lane i, chosen for a receiver with a normal, or zero for none.
     #[inline(always)]
-    fn points_toward<F: Lane>(&self, from: &LaneReceiver<F>, u: [F; 2]) -> LanePoint<F> {
-        let view = self.seen_from_afar::<F>(from.position, from.normal);
+    pub(super) fn points_toward<'s, F: Lane>(
+        rectangle: impl Fn(usize) -> &'s Self,
+        from: &LaneReceiver<F>,
+        u: [F; 2],
+    ) -> LanePoint<F> {
+        let Seen {
+            corner,
+            edges,
+            normal,
+            error,
+            area,
+            diagonal_squared,
+            right_angled,
+        } = Seen::of_lanes(&rectangle);
+        let outward = corner - from.position;
+        let view = RectangleView::new(outward, edges, from.normal);
         let uv = view.sample(u);
-        let [corner, x, y] = [self.corner, self.edges[0], self.edges[1]].map(F::Vector::broadcast);
-        let mut position = corner + x * uv[0] + y * uv[1];
-        let mut density = self.per_solid_angle(view.density(uv), from.position, position);
-        let near = self.sides.is_near::<F>(corner - from.position);
-        if self.right_angled && near.any() {
+        let mut position = corner + edges[0] * uv[0] + edges[1] * uv[1];
+        let per_area = area_density_toward::<F>(area, from.position, position, normal);
+        let mut density = view.density(uv) * per_area;
+        let near = right_angled & RectangleSides::are_near::<F>(outward, edges, diagonal_squared);
+        if near.any() {
             // Few are near, and what they need takes double precision.
             let nearby = per_lane::<F, _>(|i| {
-                let seen = near
-                    .lane(i)
-                    .then(|| self.seen_nearby(from.position.at_lane(i)))??;
+                let seen = || rectangle(i).seen_nearby(from.position.at_lane(i));
+                let seen = near.lane(i).then(seen)??;
                 let uv = seen.sample_position(Vec2::new(u[0].lane(i), u[1].lane(i)));
-                Some((self.at(uv).position, seen.density()))
+                Some((rectangle(i).at(uv).position, seen.density()))
             });
             let seen = F::Mask::from_fn(|i| nearby[i].is_some());
             let of = |i: usize| nearby[i].unwrap_or_default();
@@ -178,9 +189,66 @@ impl Rectangle {
         }
         LanePoint {
             position,
-            error: F::Vector::broadcast(self.error),
-            normal: F::Vector::broadcast(self.normal),
+            error,
+            normal,
             density,
+        }
+    }
+}
+
+/// What receivers see of rectangles, one in each lane.
+struct Seen<F: Lane> {
+    corner: F::Vector,
+    edges: [F::Vector; 2],
+    normal: F::Vector,
+    error: F::Vector,
+    area: F,
+    diagonal_squared: F,
+    right_angled: F::Mask,
+}
+
+impl<F: Lane> Seen<F> {
+    /// That of `rectangle(i)` in lane i.
+    #[inline(always)]
+    fn of_lanes<'s>(rectangle: impl Fn(usize) -> &'s Rectangle) -> Self {
+        let first = rectangle(0);
+        if (1..F::WIDTH).all(|i| core::ptr::eq(first, rectangle(i))) {
+            return Self {
+                corner: F::Vector::broadcast(first.corner),
+                edges: first.edges.map(F::Vector::broadcast),
+                normal: F::Vector::broadcast(first.normal),
+                error: F::Vector::broadcast(first.error),
+                area: F::splat(first.area as f32),
+                diagonal_squared: F::splat(first.sides.diagonal_squared()),
+                right_angled: F::Mask::splat(first.right_angled),
+            };
+        }
+        let edges = F::Vector::pairs_of_lanes(|i| rectangle(i).edges);
+        let [normal, error] =
+            F::Vector::pairs_of_lanes(|i| [rectangle(i).normal, rectangle(i).error]);
+        let [x, y, z, area, diagonal_squared, ..] = F::columns(|i| {
+            let rectangle = rectangle(i);
+            let [x, y, z] = rectangle.corner.to_array();
+            let diagonal_squared = rectangle.sides.diagonal_squared();
+            [
+                x,
+                y,
+                z,
+                rectangle.area as f32,
+                diagonal_squared,
+                0.0,
+                0.0,
+                0.0,
+            ]
+        });
+        Self {
+            corner: F::Vector::from_xyz(x, y, z),
+            edges,
+            normal,
+            error,
+            area,
+            diagonal_squared,
+            right_angled: F::Mask::from_fn(|i| rectangle(i).right_angled),
         }
     }
 }
@@ -225,7 +293,7 @@ impl ShapeModel for Rectangle {
                 density: seen.density(),
             });
         }
-        let view = self.seen_from_afar::<f32>(from.position, from.normal);
+        let view = self.seen_from_afar(from.position, from.normal);
         let uv = view.sample(u.to_array());
         let point = self.at(uv.into());
         Some(SampledPoint {
@@ -234,16 +302,11 @@ impl ShapeModel for Rectangle {
         })
     }
 
-    #[inline]
-    fn lanes_toward<F: Lane>(&self, from: &LaneReceiver<F>, u: [F; 2]) -> Option<LanePoint<F>> {
-        Some(self.points_toward(from, u))
-    }
-
     fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
         if let Some(seen) = self.seen_nearby(from.position) {
             return seen.density();
         }
-        let view = self.seen_from_afar::<f32>(from.position, from.normal);
+        let view = self.seen_from_afar(from.position, from.normal);
         let density = view.density(at.texture.uv.to_array());
         self.per_solid_angle(density, from.position, at.position)
     }

@@ -6,7 +6,7 @@ use crate::shapes::mesh::Mesh;
 use etalon_math::DirectionCone;
 use etalon_math::lane::{Lane, Vector};
 use etalon_params::Params;
-use etalon_transport::{LanePoint, LaneReceiver, LightSampleContext, SampledPoint, SurfacePoint};
+use etalon_transport::{LightSampleContext, SampledPoint, SurfacePoint};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// A shape: triangles ([`ShapeModel::mesh`]), or pieces that are intersected by a formula of their own
@@ -124,12 +124,6 @@ pub(crate) trait ShapeModel {
         Some(SampledPoint { point, density })
     }
 
-    /// The same in lanes; `None` if points must be chosen one by one.
-    #[inline]
-    fn lanes_toward<F: Lane>(&self, _: &LaneReceiver<F>, _: [F; 2]) -> Option<LanePoint<F>> {
-        None
-    }
-
     /// The density of [`ShapeModel::sample_toward`] at a point of this shape.
     #[inline]
     fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
@@ -140,14 +134,14 @@ pub(crate) trait ShapeModel {
     #[inline]
     fn area_density_toward(&self, from: Vec3, at: &SurfacePoint) -> f32 {
         let area = self.area().unwrap_or(f64::INFINITY);
-        area_density_toward::<f32>(area, from, at.position, at.normal)
+        area_density_toward::<f32>(area as f32, from, at.position, at.normal)
     }
 }
 
 /// Uniform density by area as seen from a point: r² / (A |cos θ|), infinite edge-on.
 #[inline(always)]
 pub(crate) fn area_density_toward<F: Lane>(
-    area: f64,
+    area: F,
     from: F::Vector,
     position: F::Vector,
     normal: F::Vector,
@@ -155,7 +149,7 @@ pub(crate) fn area_density_toward<F: Lane>(
     let to = position - from;
     let distance_squared = to.dot_product(to);
     let cos_times_distance = normal.dot_product(to).abs();
-    distance_squared * distance_squared.sqrt() / (cos_times_distance * area as f32)
+    distance_squared * distance_squared.sqrt() / (cos_times_distance * area)
 }
 
 /// Reads `flip_normals`.

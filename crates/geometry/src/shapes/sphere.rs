@@ -35,6 +35,18 @@ pub struct Sphere {
 /// of single precision.
 const ROUNDING: f32 = 4.0 * f32::EPSILON;
 
+/// The cones in which observers outside see spheres. A point of the sphere itself, which rounding puts on either side, sees it from
+/// inside if at all.
+#[inline(always)]
+fn cone<F: Lane>(center: F::Vector, radius: F, from: F::Vector) -> SphereCone<F> {
+    let center = center - from;
+    let [x, y, z] = from.magnitudes().xyz();
+    let rounding = (x.max(y).max(z) + radius) * ROUNDING;
+    let mut cone = SphereCone::new(center, radius);
+    cone.exists = cone.exists & center.norm().gt(rounding + radius);
+    cone
+}
+
 impl Sphere {
     /// The image under `placement` of the sphere around `center` with radius `radius` ≠ 0 (m). As
     /// in Mitsuba, a map that mirrors turns the sphere inside out; so do a negative radius (which
@@ -100,35 +112,45 @@ impl Sphere {
         .flipped_if(self.inward)
     }
 
-    /// The cones in which observers outside see the sphere. A point of the sphere itself, which rounding puts on either side, sees
-    /// it from inside if at all.
-    #[inline(always)]
-    fn cone<F: Lane>(&self, from: F::Vector) -> SphereCone<F> {
-        let center = F::Vector::broadcast(self.center.as_vec3()) - from;
-        let radius = self.radius as f32;
-        let [x, y, z] = from.magnitudes().xyz();
-        let rounding = (x.max(y).max(z) + radius) * ROUNDING;
-        let mut cone = SphereCone::new(center, F::splat(radius));
-        cone.exists = cone.exists & center.norm().gt(rounding + radius);
-        cone
+    /// The cone in which an observer outside sees it.
+    #[inline]
+    fn cone(&self, from: Vec3) -> SphereCone {
+        let (center, radius, _) = Self::in_lanes::<f32>(|_| self);
+        cone::<f32>(center, radius, from)
     }
 
-    /// Points chosen for receivers: by solid angle from outside, by area from inside.
+    /// The centre, the radius and whether the outside is within, of `sphere(i)` in lane i.
     #[inline(always)]
-    fn points_toward<F: Lane>(&self, from: &LaneReceiver<F>, u: [F; 2]) -> LanePoint<F> {
-        let cone = self.cone::<F>(from.position);
-        let center = self.center.as_vec3();
-        let radius = self.radius as f32;
+    fn in_lanes<'s, F: Lane>(sphere: impl Fn(usize) -> &'s Self) -> (F::Vector, F, F::Mask) {
+        let [x, y, z, radius, inward, ..] = F::columns(|i| {
+            let sphere = sphere(i);
+            let [x, y, z] = sphere.center.as_vec3().to_array();
+            let inward = f32::from(u8::from(sphere.inward));
+            [x, y, z, sphere.radius as f32, inward, 0.0, 0.0, 0.0]
+        });
+        (F::Vector::from_xyz(x, y, z), radius, inward.gt(F::ZERO))
+    }
+
+    /// Points of `sphere(i)` in lane i, chosen for a receiver: by solid angle from outside, by area from inside.
+    #[inline(always)]
+    pub(super) fn points_toward<'s, F: Lane>(
+        sphere: impl Fn(usize) -> &'s Self,
+        from: &LaneReceiver<F>,
+        u: [F; 2],
+    ) -> LanePoint<F> {
+        let (center, radius, inward) = Self::in_lanes::<F>(&sphere);
+        let cone = cone::<F>(center, radius, from.position);
         let outward = cone.sample_normal(u);
+        let reach = center.magnitudes() + F::Vector::from_xyz(radius, radius, radius);
         let mut point = LanePoint {
-            position: F::Vector::broadcast(center) + outward * F::splat(radius),
-            error: F::Vector::broadcast((center.abs() + radius) * gamma(4)),
-            normal: if self.inward { -outward } else { outward },
+            position: center + outward * radius,
+            error: reach * F::splat(gamma(4)),
+            normal: F::Vector::choose(inward, -outward, outward),
             density: cone.density(),
         };
         if !cone.exists.all() {
             let inside = per_lane::<F, _>(|i| {
-                let at = || self.sample_area(Vec2::from(u.map(|u| u.lane(i))));
+                let at = || sphere(i).sample_area(Vec2::from(u.map(|u| u.lane(i))));
                 (!cone.exists.lane(i)).then(at).flatten()
             });
             let vector = |of: fn(&SurfacePoint) -> Vec3| {
@@ -138,7 +160,7 @@ impl Sphere {
             point.position = choose(point.position, vector(|at| at.position));
             point.error = choose(point.error, vector(|at| at.error));
             point.normal = choose(point.normal, vector(|at| at.normal));
-            let area = self.area().unwrap_or(f64::INFINITY);
+            let area = F::from_fn(|i| sphere(i).area().unwrap_or(f64::INFINITY) as f32);
             let by_area =
                 area_density_toward::<F>(area, from.position, point.position, point.normal);
             point.density = cone.exists.select(point.density, by_area);
@@ -183,7 +205,7 @@ impl ShapeModel for Sphere {
     }
 
     fn sample_toward(&self, from: &LightSampleContext, u: Vec2) -> Option<SampledPoint> {
-        let cone = self.cone::<f32>(from.position);
+        let cone = self.cone(from.position);
         if !cone.exists {
             let point = self.sample_area(u)?;
             let density = self.area_density_toward(from.position, &point);
@@ -196,13 +218,8 @@ impl ShapeModel for Sphere {
         })
     }
 
-    #[inline]
-    fn lanes_toward<F: Lane>(&self, from: &LaneReceiver<F>, u: [F; 2]) -> Option<LanePoint<F>> {
-        Some(self.points_toward(from, u))
-    }
-
     fn density_toward(&self, from: &LightSampleContext, at: &SurfacePoint) -> f32 {
-        let cone = self.cone::<f32>(from.position);
+        let cone = self.cone(from.position);
         if !cone.exists {
             return self.area_density_toward(from.position, at);
         }

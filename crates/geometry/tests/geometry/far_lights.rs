@@ -34,8 +34,9 @@ fn irradiance(geometry: &Geometry, at: Vec3) -> f64 {
     };
     let one = mean_irradiance(geometry, at, alone);
     let lane = |u: Vec2| {
-        let point = geometry.lanes_toward::<f32>(ID, &from.broadcast(), u.to_array())?;
-        Some(SampledPoint {
+        let in_lanes = geometry.are_alike([ID, ID]);
+        let point = || geometry.points_toward::<f32>(|_| ID, &from.broadcast(), u.to_array());
+        in_lanes.then(point).map(|point| SampledPoint {
             point: SurfacePoint {
                 position: point.position,
                 error: point.error,

@@ -36,7 +36,7 @@ pub const TILE: u32 = 16;
 const TILES_PER_THREAD: u32 = 8;
 
 /// Number of samples in a batch.
-pub const BATCH_SIZE: usize = 128;
+pub const BATCH_SIZE: usize = 256;
 
 /// Columns and rows from one pixel of the first round to the next.
 const COARSE: u32 = 8;

@@ -27,7 +27,6 @@ pub struct RectangleSides {
     y: DVec3,
     normal: DVec3,
     size: DVec2,
-    half_diagonal: Vec3,
     diagonal_squared: f32,
 }
 
@@ -43,7 +42,6 @@ impl RectangleSides {
             y,
             normal: x.cross(y),
             size,
-            half_diagonal: (edges[0] + edges[1]) * 0.5,
             diagonal_squared: size.length_squared() as f32,
         }
     }
@@ -52,11 +50,25 @@ impl RectangleSides {
     /// diagonal, for the corner at `corner`: irradiance then varies over the rectangle in
     /// ways that no simple density follows.
     #[inline]
-    pub fn is_near<F: Lane>(&self, corner: F::Vector) -> F::Mask {
-        let middle = corner + F::Vector::broadcast(self.half_diagonal);
-        middle
-            .dot_product(middle)
-            .lt(F::splat(self.diagonal_squared))
+    pub fn is_near(&self, corner: Vec3) -> bool {
+        Self::are_near::<f32>(corner, self.edges, self.diagonal_squared)
+    }
+
+    /// The same of several rectangles, with these edges and squared lengths of their diagonals.
+    #[inline(always)]
+    pub fn are_near<F: Lane>(
+        corner: F::Vector,
+        edges: [F::Vector; 2],
+        diagonal_squared: F,
+    ) -> F::Mask {
+        let middle = corner + (edges[0] + edges[1]) * F::splat(0.5);
+        middle.dot_product(middle).lt(diagonal_squared)
+    }
+
+    /// The squared length of a diagonal.
+    #[inline]
+    pub fn diagonal_squared(&self) -> f32 {
+        self.diagonal_squared
     }
 }
 
