@@ -12,11 +12,11 @@ mod bvh;
 mod choices;
 mod linear;
 mod node;
+pub(crate) mod observer;
 mod octree;
 mod pack;
 pub(crate) mod packet;
 mod tested_rays;
-pub(crate) mod visits;
 pub(crate) mod wide;
 pub(crate) mod wide_packet;
 
@@ -26,7 +26,7 @@ use block::Block;
 use box_tree::BoxTree;
 use glam::Vec3;
 use linear::Linear;
-use visits::Counter;
+use observer::Observer;
 use wide::Wide;
 
 /// The kind of accelerator.
@@ -175,8 +175,10 @@ pub(crate) trait CustomPrimitives {
     fn intersect(&self, primitive: u32, probe: &TraversalRay, nearest: &mut ClosestHit);
     /// Whether the ray hits `primitive` before `t_max`.
     fn occludes(&self, primitive: u32, probe: &TraversalRay, t_max: f32) -> bool;
-    /// The counter of visited nodes and primitives.
-    fn counter(&self) -> &impl Counter;
+    /// Whether a search for anything ends at a triangle.
+    fn stops(&self, primitive: u32) -> bool;
+    /// Who watches the search.
+    fn observer(&self) -> &impl Observer;
 }
 
 /// Whether a triangle has any area. One without is not part of any surface: rounding alone would
@@ -234,7 +236,7 @@ impl Accelerator {
         nearest: &mut ClosestHit,
     ) {
         for &primitive in &self.endless {
-            others.counter().primitives(|| 1);
+            others.observer().primitives(|| 1);
             others.intersect(primitive, probe, nearest);
         }
         match &self.index {
@@ -254,7 +256,7 @@ impl Accelerator {
     ) -> bool {
         let mut endless = self.endless.iter();
         endless.any(|&primitive| {
-            others.counter().primitives(|| 1);
+            others.observer().primitives(|| 1);
             others.occludes(primitive, probe, t_max)
         }) || match &self.index {
             Index::Linear(linear) => linear.occluded(probe, others, t_max),

@@ -19,8 +19,8 @@
 //! by the sign of their largest component gained nothing: more packets were not full.
 
 use crate::accelerator::block::LANES;
+use crate::accelerator::observer::Unobserved;
 use crate::accelerator::packet::{PacketHits, RayPacket};
-use crate::accelerator::visits::Uncounted;
 use crate::accelerator::wide::Wide;
 use crate::accelerator::wide_packet::FEWEST;
 use crate::geometry::Geometry;
@@ -123,7 +123,7 @@ impl Geometry {
             }
             return;
         };
-        let others = self.others(&Uncounted);
+        let others = self.others(&Unobserved);
         for (rays, hits) in rays.chunks(MOST).zip(hits.chunks_mut(MOST)) {
             let hits = Cell::from_mut(hits).as_slice_of_cells();
             self.pack(
@@ -156,7 +156,7 @@ impl Geometry {
             }
             return;
         };
-        let others = self.others(&Uncounted);
+        let others = self.others(&Unobserved);
         for (items, occluded) in items.chunks(MOST).zip(occluded.chunks_mut(MOST)) {
             let occluded = Cell::from_mut(occluded).as_slice_of_cells();
             self.pack(

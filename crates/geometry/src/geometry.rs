@@ -1,6 +1,6 @@
 //! All surfaces of a scene: intersection, and the vertex at a hit.
 
-use crate::accelerator::visits::{Counter, Uncounted, Visits};
+use crate::accelerator::observer::{Observer, Obstruction, Passing, Unobserved, Visits};
 use crate::accelerator::{Accelerator, Bounds};
 use crate::closest_hit::ClosestHit;
 use crate::instance::{Group, Instance};
@@ -78,17 +78,17 @@ impl Geometry {
 
     /// The primitives of the world that are not triangles, for accelerators.
     #[inline(always)]
-    pub(crate) fn others<'a, C>(&'a self, counter: &'a C) -> WorldOthers<'a, C> {
+    pub(crate) fn others<'a, C>(&'a self, observer: &'a C) -> WorldOthers<'a, C> {
         WorldOthers {
             geometry: self,
-            counter,
+            observer,
         }
     }
 
     /// The nearest surface along a ray, strictly between its ends.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        self.find(ray, &Uncounted)
+        self.find(ray, &Unobserved)
     }
 
     /// The nearest surface along a ray, and what had to be looked at to find it.
@@ -98,10 +98,10 @@ impl Geometry {
     }
 
     #[inline(always)]
-    fn find(&self, ray: &Ray, counter: &impl Counter) -> Option<Hit> {
+    fn find(&self, ray: &Ray, observer: &impl Observer) -> Option<Hit> {
         let probe = self.probe(ray);
         let mut nearest = ClosestHit::within(ray.t_max);
-        (self.world.accelerator).intersect(&probe, &self.others(counter), &mut nearest);
+        (self.world.accelerator).intersect(&probe, &self.others(observer), &mut nearest);
         nearest.found.then(|| self.hit(&nearest))
     }
 
@@ -133,7 +133,21 @@ impl Geometry {
     /// Whether anything lies strictly between the ends of a ray.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.is_blocked(ray, &Uncounted)
+        self.is_blocked(ray, &Unobserved)
+    }
+
+    /// What lies strictly between the ends of a ray, where some shapes are opaque.
+    #[inline]
+    pub fn obstruction(&self, ray: &Ray, is_opaque: impl Fn(ShapeId) -> bool) -> Obstruction {
+        let passing = Passing {
+            is_opaque,
+            passed: Cell::new(false),
+        };
+        match self.is_blocked(ray, &passing) {
+            true => Obstruction::Opaque,
+            false if passing.passed.get() => Obstruction::Passable,
+            false => Obstruction::Nothing,
+        }
     }
 
     /// Whether anything lies strictly between the ends of a ray, and what had to be looked at to know.
@@ -143,9 +157,9 @@ impl Geometry {
     }
 
     #[inline(always)]
-    fn is_blocked(&self, ray: &Ray, counter: &impl Counter) -> bool {
+    fn is_blocked(&self, ray: &Ray, observer: &impl Observer) -> bool {
         let probe = self.probe(ray);
-        let others = self.others(counter);
+        let others = self.others(observer);
         (self.world.accelerator).occluded(&probe, &others, ray.t_max)
     }
 

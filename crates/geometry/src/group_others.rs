@@ -1,7 +1,7 @@
 //! Primitives of a group that are not triangles: smooth shapes and instances.
 
 use crate::accelerator::CustomPrimitives;
-use crate::accelerator::visits::Counter;
+use crate::accelerator::observer::Observer;
 use crate::closest_hit::ClosestHit;
 use crate::geometry::Geometry;
 use crate::instance::Group;
@@ -14,7 +14,7 @@ use etalon_transport::ShapeId;
 pub(crate) struct GroupOthers<'a, C> {
     pub(crate) geometry: &'a Geometry,
     pub(crate) group: &'a Group,
-    pub(crate) counter: &'a C,
+    pub(crate) observer: &'a C,
 }
 
 impl<C> GroupOthers<'_, C> {
@@ -46,10 +46,15 @@ impl<C> Order for GroupOthers<'_, C> {
     }
 }
 
-impl<C: Counter> CustomPrimitives for GroupOthers<'_, C> {
+impl<C: Observer> CustomPrimitives for GroupOthers<'_, C> {
     #[inline(always)]
-    fn counter(&self) -> &impl Counter {
-        self.counter
+    fn stops(&self, primitive: u32) -> bool {
+        self.observer.stops(|| self.group.scope.shape_of(primitive))
+    }
+
+    #[inline(always)]
+    fn observer(&self) -> &impl Observer {
+        self.observer
     }
 
     #[inline]
@@ -64,7 +69,7 @@ impl<C: Counter> CustomPrimitives for GroupOthers<'_, C> {
                     primitive,
                     probe,
                     nearest,
-                    self.counter,
+                    self.observer,
                 );
             }
         }
@@ -75,10 +80,11 @@ impl<C: Counter> CustomPrimitives for GroupOthers<'_, C> {
         match self.group.scope.locate(primitive) {
             (PrimitiveOwner::Shape(shape), piece) => {
                 (self.piece(shape, piece, primitive)).occludes(probe, t_max, self)
+                    && self.observer.stops(|| shape)
             }
             (PrimitiveOwner::Instance(instance), _) => {
                 self.geometry
-                    .occluded_instance(instance, probe, t_max, self.counter)
+                    .occluded_instance(instance, probe, t_max, self.observer)
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Groups of shapes, placed any number of times, also in one another.
 
 use crate::accelerator::Accelerator;
-use crate::accelerator::visits::Counter;
+use crate::accelerator::observer::Observer;
 use crate::closest_hit::ClosestHit;
 use crate::geometry::Geometry;
 use crate::group_others::GroupOthers;
@@ -84,7 +84,7 @@ impl Geometry {
         primitive: u32,
         probe: &TraversalRay,
         nearest: &mut ClosestHit,
-        counter: &impl Counter,
+        observer: &impl Observer,
     ) {
         let instance = &self.instances[instance.0 as usize];
         let (group, local) = self.inside(instance, probe);
@@ -92,7 +92,7 @@ impl Geometry {
         let others = GroupOthers {
             geometry: self,
             group,
-            counter,
+            observer,
         };
         (group.accelerator).intersect(&local, &others, &mut inside);
         nearest.set_inside(primitive, instance.first, &inside);
@@ -104,13 +104,13 @@ impl Geometry {
         instance: InstanceId,
         probe: &TraversalRay,
         t_max: f32,
-        counter: &impl Counter,
+        observer: &impl Observer,
     ) -> bool {
         let (group, local) = self.inside(&self.instances[instance.0 as usize], probe);
         let others = GroupOthers {
             geometry: self,
             group,
-            counter,
+            observer,
         };
         group.accelerator.occluded(&local, &others, t_max)
     }

@@ -25,7 +25,7 @@ mod touching;
 mod traversal_ray;
 mod world_others;
 
-pub use accelerator::visits::Visits;
+pub use accelerator::observer::{Obstruction, Visits};
 pub use accelerator::{AcceleratorKind, Bounds};
 pub use builder::GeometryBuilder;
 pub use geometry::{Geometry, GeometryStatistics};

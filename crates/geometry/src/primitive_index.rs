@@ -91,6 +91,15 @@ impl PrimitiveIndex {
         (member.thing, primitive - member.first)
     }
 
+    /// The shape that a triangle belongs to.
+    #[inline]
+    pub(crate) fn shape_of(&self, triangle: u32) -> ShapeId {
+        match self.locate(triangle).0 {
+            PrimitiveOwner::Shape(shape) => shape,
+            PrimitiveOwner::Instance(_) => unreachable!("an instance is no triangle"),
+        }
+    }
+
     /// A ray ready for this scope's accelerator.
     #[inline(always)]
     pub(crate) fn probe(&self, origin: Vec3, direction: Vec3) -> TraversalRay {

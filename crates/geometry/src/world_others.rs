@@ -1,7 +1,7 @@
 //! Primitives of the world that are not triangles: smooth shapes, also touching ones, and instances.
 
 use crate::accelerator::CustomPrimitives;
-use crate::accelerator::visits::Counter;
+use crate::accelerator::observer::Observer;
 use crate::closest_hit::ClosestHit;
 use crate::geometry::Geometry;
 use crate::piece::{Order, Piece, is_in_front, tolerance};
@@ -22,7 +22,7 @@ fn line_of(probe: &TraversalRay) -> Line {
 /// Intersects the smooth shapes and instances of the world.
 pub(crate) struct WorldOthers<'a, C> {
     pub(crate) geometry: &'a Geometry,
-    pub(crate) counter: &'a C,
+    pub(crate) observer: &'a C,
 }
 
 impl<C> WorldOthers<'_, C> {
@@ -126,10 +126,16 @@ impl<C> Order for WorldOthers<'_, C> {
     }
 }
 
-impl<C: Counter> CustomPrimitives for WorldOthers<'_, C> {
+impl<C: Observer> CustomPrimitives for WorldOthers<'_, C> {
     #[inline(always)]
-    fn counter(&self) -> &impl Counter {
-        self.counter
+    fn stops(&self, primitive: u32) -> bool {
+        self.observer
+            .stops(|| self.geometry.world.scope.shape_of(primitive))
+    }
+
+    #[inline(always)]
+    fn observer(&self) -> &impl Observer {
+        self.observer
     }
 
     #[inline]
@@ -145,7 +151,7 @@ impl<C: Counter> CustomPrimitives for WorldOthers<'_, C> {
                     primitive,
                     probe,
                     nearest,
-                    self.counter,
+                    self.observer,
                 );
             }
         }
@@ -156,10 +162,11 @@ impl<C: Counter> CustomPrimitives for WorldOthers<'_, C> {
         match self.geometry.world.scope.locate(primitive) {
             (PrimitiveOwner::Shape(shape), piece) => {
                 (self.piece(shape, piece, primitive)).occludes(probe, t_max, self)
+                    && self.observer.stops(|| shape)
             }
             (PrimitiveOwner::Instance(instance), _) => {
                 self.geometry
-                    .occluded_instance(instance, probe, t_max, self.counter)
+                    .occluded_instance(instance, probe, t_max, self.observer)
             }
         }
     }

@@ -11,7 +11,10 @@
 //! As in Mitsuba, light that passes surfaces straight (`mask`, `null`) is a scattering sample
 //! like any other, shadow rays are stopped by such surfaces, and alpha is 1 wherever there is a
 //! surface, 0 before the background.
+//!
+//! With one sample of either kind this is a path of two segments, and is followed as one.
 
+use crate::path::{follow_alone, follow_jobs};
 use crate::steps::arrival::{Arrival, Arriving, next_hit};
 use crate::steps::camera_ray::camera_ray;
 use crate::steps::candidates::Candidates;
@@ -19,16 +22,17 @@ use crate::steps::dimensions::BounceSamples;
 use crate::steps::light_connection::LightConnection;
 use crate::steps::light_mis::LightMis;
 use crate::steps::path_throughput::PathThroughput;
-use crate::steps::settings::{LightCandidates, read_max_depth};
+use crate::steps::settings::{LightCandidates, PathConfig, PathSettings, read_max_depth};
 use etalon_params::Params;
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Bsdf, BsdfOf, Channel, Incompatibility, Integrator, LightSample, LightSampleContext,
-    LightSearch, Pass, PixelSample, Placing, Ray, SceneCapabilities, Sensor, Sink,
-    SurfaceInteraction, Surfaces, TransportMode, World, one_by_one,
+    LightSearch, Pass, PixelSample, Placing, Ray, SampleJob, SceneCapabilities, Sensor, Sink,
+    SurfaceInteraction, Surfaces, TileSink, TransportMode, World,
 };
 use glam::{Vec3, Vec4};
+use std::vec::Drain;
 
 /// The direct illumination integrator.
 #[derive(Clone, Debug)]
@@ -82,6 +86,20 @@ impl Direct {
             params.error("`direct` needs at least one light or scattering sample");
         }
         direct
+    }
+
+    /// The paths of two segments that this is, if it is.
+    fn as_path(&self) -> Option<PathConfig> {
+        let one_of_each = [self.emitter_samples, self.bsdf_samples] == [1, 1];
+        (one_of_each && self.max_depth > 0).then(|| PathConfig {
+            candidates: self.light_candidates,
+            alpha_of_surfaces: true,
+            ..PathConfig::plain(PathSettings {
+                max_depth: self.max_depth.min(2),
+                rr_depth: u32::MAX,
+                hide_emitters: self.hide_emitters,
+            })
+        })
     }
 
     fn incident<W: World, S: Sampler>(
@@ -248,11 +266,28 @@ impl Integrator for Direct {
         sampler: &mut S,
         sink: &mut K,
     ) {
+        if let Some(config) = self.as_path() {
+            return follow_alone(world, &config, (), (site, sampler), sink);
+        }
         let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
         let (radiance, alpha) = self.incident(world, ray, &wavelengths, sampler);
         let rgb = world.sensor().weights(&wavelengths).rgb(radiance * weight);
         sink.radiance(rgb.to_array(), alpha);
     }
 
-    one_by_one!();
+    fn sample_batch<W: World, S: Sampler, K: TileSink>(
+        &self,
+        world: &W,
+        state: &(),
+        jobs: Drain<'_, SampleJob<S>>,
+        sink: &mut K,
+    ) {
+        if let Some(config) = self.as_path() {
+            return follow_jobs(world, &config, (), jobs, sink);
+        }
+        for mut job in jobs {
+            sink.begin_placed(job.site.pixel, &job.placement());
+            self.sample(world, state, &job.site, &mut job.sampler, sink);
+        }
+    }
 }

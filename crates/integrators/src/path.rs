@@ -80,6 +80,7 @@ impl Path {
             candidates: self.light_candidates,
             counts_null: !self.skips_null,
             equiangular: self.equiangular,
+            alpha_of_surfaces: false,
         }
     }
 }

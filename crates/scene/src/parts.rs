@@ -27,6 +27,8 @@ pub struct Parts {
     pub(crate) lights: LightSet,
     /// Whether any material has a null interaction, so that shadow rays must evaluate materials.
     pub(crate) has_null: bool,
+    /// Which of the materials do.
+    pub(crate) are_null: Vec<bool>,
     /// The medium that the camera is in, with the bodies that it is in.
     pub(crate) camera_medium: MediumId,
     /// The outermost medium.

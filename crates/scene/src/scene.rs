@@ -49,10 +49,12 @@ impl Scene {
         }
         let diffuses = (space.media).any_homogeneous(Homogeneous::diffuses);
         let in_lanes = shining.is_none() && !diffuses;
+        let are_null: Vec<bool> = materials.iter().map(Material::has_null).collect();
         let parts = Parts {
             camera,
             in_lanes,
-            has_null: materials.iter().any(Material::has_null),
+            has_null: are_null.contains(&true),
+            are_null,
             lane_kinds: materials.iter().map(Material::lane_kind).collect(),
             materials,
             lights,
@@ -117,7 +119,7 @@ impl World for Scene {
         if self.any_surface_is_opaque() {
             return self.unoccluded_transmission(ray, wavelengths);
         }
-        self.transmission_past_null_surfaces(*ray, wavelengths, crossings)
+        self.transmission_past_null_surfaces(ray, wavelengths, crossings)
     }
 
     #[inline]

@@ -2,17 +2,19 @@
 
 use crate::rays;
 use crate::scene::Scene;
+use etalon_geometry::Obstruction;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{Bsdf, Hit, Media, Medium, Ray, ShadowQuery, Surfaces, Transmission, World};
+use etalon_transport::{
+    Bsdf, Hit, Media, Medium, Ray, ShadowQuery, ShapeId, Surfaces, Transmission, World,
+};
 use glam::Vec4;
 
 impl Scene {
-    /// Whether no light goes straight on where a ray hits a surface; `false` also where that is not known yet.
+    /// Whether no light goes straight on through a shape; `false` also where that depends on its face.
     #[inline]
-    fn is_opaque(&self, hit: &Hit) -> bool {
-        let material = self.parts.space.lookup.geometry.material_of(hit.shape);
-        material.is_some_and(|id| !self.parts.materials[id.0 as usize].has_null())
-            && self.parts.space.media.bodies().is_none()
+    fn is_opaque(&self, shape: ShapeId) -> bool {
+        let material = self.parts.space.lookup.geometry.material_of(shape);
+        material.is_some_and(|id| !self.parts.are_null[id.0 as usize])
     }
 
     /// Whether no light goes straight on at any surface.
@@ -84,18 +86,39 @@ impl Scene {
         }
     }
 
-    /// A segment through null surfaces, intersected one after the other.
+    /// A segment past surfaces of which some let light go straight on: most segments meet none of these, or end at another.
     pub(crate) fn transmission_past_null_surfaces(
+        &self,
+        ray: &Ray,
+        wavelengths: &Wavelengths,
+        crossings: u32,
+    ) -> Option<Transmission> {
+        if self.parts.space.media.bodies().is_none() {
+            rays::count();
+            let geometry = &self.parts.space.lookup.geometry;
+            match geometry.obstruction(ray, |shape| self.is_opaque(shape)) {
+                Obstruction::Nothing => return self.free_transmission(ray, wavelengths),
+                Obstruction::Opaque => return None,
+                Obstruction::Passable => (),
+            }
+        }
+        self.transmission_from_surface_to_surface(*ray, wavelengths, crossings)
+    }
+
+    /// A segment through null surfaces, intersected one after the other.
+    fn transmission_from_surface_to_surface(
         &self,
         segment: Ray,
         wavelengths: &Wavelengths,
         mut crossings: u32,
     ) -> Option<Transmission> {
+        let opaque =
+            |hit: Hit| self.is_opaque(hit.shape) && self.parts.space.media.bodies().is_none();
         let mut ray = segment;
         let mut transmission = Transmission::FREE;
         loop {
             let hit = self.surfaces().intersect(&ray);
-            if hit.is_some_and(|hit| crossings == 0 || self.is_opaque(&hit)) {
+            if hit.is_some_and(|hit| crossings == 0 || opaque(hit)) {
                 return None;
             }
             let t = hit.map_or(ray.t_max, |hit| hit.t);

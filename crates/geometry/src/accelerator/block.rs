@@ -98,19 +98,37 @@ impl Block {
         }
     }
 
-    /// Whether the ray hits any triangle before `t_max`.
+    /// Whether the ray hits any triangle before `t_max` that `stops` it.
     #[inline(always)]
-    pub(crate) fn occludes(&self, probe: &TraversalRay, t_max: f32) -> bool {
-        self.occludes_tested((probe.k, &TestedRays::splat(probe)), t_max)
+    pub(crate) fn occludes(
+        &self,
+        probe: &TraversalRay,
+        t_max: f32,
+        stops: impl Fn(u32) -> bool,
+    ) -> bool {
+        self.occludes_tested((probe.k, &TestedRays::splat(probe)), t_max, stops)
     }
 
     /// The same with a ray that is the same in all lanes, and its axes.
     #[inline(always)]
-    pub(super) fn occludes_tested(&self, (k, ray): ([usize; 3], &TestedRays), t_max: f32) -> bool {
+    pub(super) fn occludes_tested(
+        &self,
+        (k, ray): ([usize; 3], &TestedRays),
+        t_max: f32,
+        stops: impl Fn(u32) -> bool,
+    ) -> bool {
         let Some(meetings) = self.meet(k, ray, t_max) else {
             return false;
         };
-        (meetings.meeting & meetings.t.simd_lt(f32x8::splat(t_max))).any()
+        let before = meetings.meeting & meetings.t.simd_lt(f32x8::splat(t_max));
+        let mut lanes = before.to_bitmask();
+        while lanes != 0 {
+            if stops(self.primitives[lanes.trailing_zeros() as usize & (LANES - 1)]) {
+                return true;
+            }
+            lanes &= lanes - 1;
+        }
+        false
     }
 }
 

@@ -4,7 +4,7 @@
 //! visited from the nearest box to the farthest, and not beyond the nearest hit.
 
 use super::block::{Block, LANES};
-use super::visits::Counter;
+use super::observer::Observer;
 use super::{Bounds, CustomPrimitives, Primitives, block_bytes, has_area};
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::TraversalRay;
@@ -163,7 +163,7 @@ impl BoxTree {
         others: &impl CustomPrimitives,
         nearest: &mut ClosestHit,
     ) {
-        let counter = others.counter();
+        let observer = others.observer();
         let mut asked = Asked::default();
         let mut stack = [(0.0_f32, 0_u32); STACK];
         let mut top = usize::from(!self.nodes.is_empty());
@@ -174,14 +174,14 @@ impl BoxTree {
                 continue;
             }
             let node = &self.nodes[index as usize];
-            counter.node();
+            observer.node();
             for block in span(node.blocks) {
-                counter.primitives(|| self.blocks[block].len());
+                observer.primitives(|| self.blocks[block].len());
                 self.blocks[block].intersect(block, probe, nearest);
             }
             for other in span(node.others) {
                 if asked.is_new(self.others[other]) {
-                    counter.primitives(|| 1);
+                    observer.primitives(|| 1);
                     others.intersect(self.others[other], probe, nearest);
                 }
             }
@@ -210,21 +210,22 @@ impl BoxTree {
         others: &impl CustomPrimitives,
         t_max: f32,
     ) -> bool {
-        let counter = others.counter();
+        let observer = others.observer();
         let mut asked = Asked::default();
         let mut stack = [0_u32; STACK];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {
             top -= 1;
             let node = &self.nodes[stack[top] as usize];
-            counter.node();
+            observer.node();
             let hits_block = |block: usize| {
-                counter.primitives(|| self.blocks[block].len());
-                self.blocks[block].occludes(probe, t_max)
+                observer.primitives(|| self.blocks[block].len());
+                let stops = |primitive| others.stops(primitive);
+                self.blocks[block].occludes(probe, t_max, stops)
             };
             let mut hits_other = |other: usize| {
                 asked.is_new(self.others[other]) && {
-                    counter.primitives(|| 1);
+                    observer.primitives(|| 1);
                     others.occludes(self.others[other], probe, t_max)
                 }
             };

@@ -1,7 +1,7 @@
 //! No acceleration: every ray is tested against every primitive. The oracle of the others.
 
 use super::block::{Block, LANES};
-use super::visits::Counter;
+use super::observer::Observer;
 use super::{CustomPrimitives, Primitives, block_bytes, has_area};
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::TraversalRay;
@@ -42,10 +42,10 @@ impl Linear {
         nearest: &mut ClosestHit,
     ) {
         for (index, block) in self.blocks.iter().enumerate() {
-            others.counter().primitives(|| block.len());
+            others.observer().primitives(|| block.len());
             block.intersect(index, probe, nearest);
         }
-        others.counter().primitives(|| self.others.len());
+        others.observer().primitives(|| self.others.len());
         for &primitive in &self.others {
             others.intersect(primitive, probe, nearest);
         }
@@ -58,13 +58,13 @@ impl Linear {
         others: &impl CustomPrimitives,
         t_max: f32,
     ) -> bool {
-        let counter = others.counter();
+        let observer = others.observer();
         let hits_block = |block: &Block| {
-            counter.primitives(|| block.len());
-            block.occludes(probe, t_max)
+            observer.primitives(|| block.len());
+            block.occludes(probe, t_max, |primitive| others.stops(primitive))
         };
         let hits_other = |&primitive: &u32| {
-            counter.primitives(|| 1);
+            observer.primitives(|| 1);
             others.occludes(primitive, probe, t_max)
         };
         self.blocks.iter().any(hits_block) || self.others.iter().any(hits_other)

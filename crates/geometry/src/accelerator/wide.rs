@@ -7,8 +7,8 @@ use super::binary::BinaryTree;
 use super::block::Block;
 use super::choices::{self, Choices};
 use super::node::{Link, Target, WIDTH};
+use super::observer::Observer;
 use super::pack::{Packed, pack};
-use super::visits::Counter;
 use super::{CustomPrimitives, Primitives, block_bytes};
 use crate::closest_hit::ClosestHit;
 use crate::traversal_ray::TraversalRay;
@@ -99,7 +99,7 @@ impl Wide {
         others: &impl CustomPrimitives,
         nearest: &mut ClosestHit,
     ) {
-        let counter = others.counter();
+        let observer = others.observer();
         // The black boxes below keep the compiler from spreading every number of the probe over
         // a vector before the first node: there are more of them than registers, and what would
         // be saved and restored is as quickly spread where it is used (a tenth of a render).
@@ -111,7 +111,7 @@ impl Wide {
         loop {
             match link.target() {
                 Target::Node(index) => {
-                    counter.node();
+                    observer.node();
                     let node = &self.0.nodes[index];
                     let (mut lanes, near) = node.entered(black_box(probe), nearest.t);
                     if lanes != 0 {
@@ -162,11 +162,11 @@ impl Wide {
                     }
                 }
                 Target::Block(index) => {
-                    counter.primitives(|| self.0.blocks[index].len());
+                    observer.primitives(|| self.0.blocks[index].len());
                     self.0.blocks[index].intersect(index, black_box(probe), nearest)
                 }
                 Target::Other(primitive) => {
-                    counter.primitives(|| 1);
+                    observer.primitives(|| 1);
                     others.intersect(primitive, probe, nearest)
                 }
             }
@@ -205,14 +205,14 @@ impl Wide {
         others: &impl CustomPrimitives,
         t_max: f32,
     ) -> bool {
-        let counter = others.counter();
+        let observer = others.observer();
         let mut stack = [0u32; STACK];
         let mut top = 0;
         let mut link = root;
         loop {
             match link.target() {
                 Target::Node(index) => {
-                    counter.node();
+                    observer.node();
                     let node = &self.0.nodes[index];
                     let (mut lanes, _) = node.entered(black_box(probe), t_max);
                     if lanes != 0 {
@@ -230,13 +230,14 @@ impl Wide {
                     }
                 }
                 Target::Block(index) => {
-                    counter.primitives(|| self.0.blocks[index].len());
-                    if self.0.blocks[index].occludes(black_box(probe), t_max) {
+                    observer.primitives(|| self.0.blocks[index].len());
+                    let stops = |primitive| others.stops(primitive);
+                    if self.0.blocks[index].occludes(black_box(probe), t_max, stops) {
                         return true;
                     }
                 }
                 Target::Other(primitive) => {
-                    counter.primitives(|| 1);
+                    observer.primitives(|| 1);
                     if others.occludes(primitive, probe, t_max) {
                         return true;
                     }

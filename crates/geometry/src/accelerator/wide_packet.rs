@@ -205,7 +205,8 @@ impl Wide {
                 Target::Node(_) => self.find_any_below::<STACK>(link, &rays.ray(lane), others, end),
                 Target::Block(index) => {
                     let ray = (rays.k, &rays.tested.spread(lane));
-                    self.0.blocks[index].occludes_tested(ray, end)
+                    self.0.blocks[index]
+                        .occludes_tested(ray, end, |primitive| others.stops(primitive))
                 }
                 Target::Other(primitive) => others.occludes(primitive, &rays.ray(lane), end),
             };

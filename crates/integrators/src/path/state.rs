@@ -194,11 +194,16 @@ impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
         let sees_background = config.limits.sees_background(self.alpha);
         match self.arriving().at(world, ray, hit, sees_background) {
             Arrival::Surface(vertex, emission) => {
+                if config.alpha_of_surfaces {
+                    self.alpha = 1.0;
+                }
                 self.add(emission);
                 Some(vertex)
             }
             Arrival::Background(emission) => {
-                self.alpha = 1.0;
+                if !config.alpha_of_surfaces {
+                    self.alpha = 1.0;
+                }
                 self.add(emission);
                 None
             }

@@ -65,6 +65,8 @@ pub(crate) struct PathConfig {
     pub(crate) counts_null: bool,
     /// Whether light is looked for along flights through media, see [`crate::path::equiangular`].
     pub(crate) equiangular: bool,
+    /// Whether alpha says if the camera sees any surface, as Mitsuba's `direct` has it.
+    pub(crate) alpha_of_surfaces: bool,
 }
 
 impl PathConfig {
@@ -75,6 +77,7 @@ impl PathConfig {
             candidates: LightCandidates::ONE,
             counts_null: true,
             equiangular: false,
+            alpha_of_surfaces: false,
         }
     }
 
