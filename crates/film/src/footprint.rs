@@ -14,9 +14,10 @@ const CELLS: f64 = 512.0;
 pub(crate) struct Footprint {
     radius: f32,
     per_pixel: f32,
-    /// At equal steps over the radius, and one more.
-    density: Box<[f32]>,
+    /// At equal steps over the radius, and one more: the density, and how much more it is at the next step.
+    density: Box<[[f32; 2]]>,
     reach: u32,
+    is_flat: bool,
 }
 
 impl Footprint {
@@ -31,15 +32,24 @@ impl Footprint {
             .collect();
         let ends = 0.5 * (values[0] + values[values.len() - 1]);
         let integral = 2.0 * step * (values.iter().sum::<f64>() - ends);
-        let mut density: Vec<f32> = values.iter().map(|v| (v / integral) as f32).collect();
-        // So that the cell of a distance that rounds up to the radius has two ends.
-        density.push(density[density.len() - 1]);
+        let at = |i: usize| (values[i.min(values.len() - 1)] / integral) as f32;
+        // Beyond the last, so that the cell of a distance that rounds up to the radius has two ends.
+        let density: Vec<_> = (0..values.len())
+            .map(|i| [at(i), at(i + 1) - at(i)])
+            .collect();
         Self {
             radius: radius as f32,
             per_pixel: (cells / radius) as f32,
+            is_flat: density.iter().all(|[value, _]| value.abs() < 11.0),
             density: density.into(),
             reach: (radius - 0.5).ceil().max(0.0) as u32,
         }
+    }
+
+    /// Whether products of two densities stay below 2⁷.
+    #[inline]
+    pub(crate) fn is_flat(&self) -> bool {
+        self.is_flat
     }
 
     /// Reach of a sample beyond its own pixel (pixels).
@@ -55,9 +65,9 @@ impl Footprint {
             return 0.0;
         }
         let place = x * self.per_pixel;
-        let cell = place as usize;
-        let [left, right] = [self.density[cell], self.density[cell + 1]];
-        left + (right - left) * (place - cell as f32)
+        let cell = place as u32;
+        let [left, rise] = self.density[cell as usize];
+        left + rise * (place - cell as f32)
     }
 
     /// Puts what a sample counts along one axis into `taps`, for the pixels that it reaches of those from `first` to
@@ -66,8 +76,11 @@ impl Footprint {
     pub(crate) fn along(&self, offset: f32, [first, last]: [i32; 2], taps: &mut Vec<f32>) -> i32 {
         let first = first.max((offset - self.radius).ceil() as i32);
         let last = last.min((offset + self.radius).floor() as i32);
-        taps.clear();
-        taps.extend((first..=last).map(|pixel| self.density(pixel as f32 - offset)));
+        let count = (last - first + 1).max(0) as usize;
+        taps.resize(count, 0.0);
+        for (pixel, tap) in (first..).zip(taps) {
+            *tap = self.density(pixel as f32 - offset);
+        }
         first
     }
 

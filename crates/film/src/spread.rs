@@ -10,6 +10,7 @@
 //! rounded to the nearest unit.
 
 use crate::footprint::Footprint;
+use etalon_math::lane::{F32x8, Int, Lane};
 use etalon_statistics::{Fixed128, InvalidValue};
 use glam::{IVec2, Vec2};
 
@@ -25,9 +26,10 @@ pub(crate) struct Spread {
     channels: usize,
     /// By row, column and channel.
     sums: Vec<Fixed128>,
-    /// Weights of the current sample, by row and column of its footprint.
+    /// Weights of the current sample, by row and column of its footprint; rows are filled up to a `stride`.
     weights: Vec<i64>,
     columns: usize,
+    stride: usize,
     /// The footprint's first number in `sums`.
     first: usize,
     /// The largest weight, in absolute value.
@@ -112,6 +114,7 @@ impl Spread {
             sums: vec![Fixed128::ZERO; (size.x * size.y) as usize * channels],
             weights: Vec::new(),
             columns: 0,
+            stride: 1,
             first: 0,
             most: 0.0,
             across: Vec::new(),
@@ -128,19 +131,35 @@ impl Spread {
         let left = footprint.along(offset.x, [-own.x, end.x], &mut self.across);
         let top = footprint.along(offset.y, [-own.y, end.y], &mut self.down);
         self.columns = self.across.len();
-        self.weights.clear();
         let most = |taps: &[f32]| taps.iter().fold(0.0f32, |most, tap| most.max(tap.abs()));
         self.most = most(&self.across) * most(&self.down);
         if self.columns == 0 || self.down.is_empty() {
+            self.columns = 0;
             return;
         }
         let corner = own + IVec2::new(left, top);
         self.first = (corner.y * self.size.x + corner.x) as usize * self.channels;
-        for down in &self.down {
+        self.stride = self.columns.next_multiple_of(F32x8::WIDTH);
+        self.across.resize(self.stride, 0.0);
+        self.weights.resize(self.stride * self.down.len(), 0);
+        let weights = self.weights.chunks_exact_mut(self.stride);
+        for (down, row) in self.down.iter().zip(weights) {
             let down = down * WEIGHT_UNIT;
-            let row = self.across.iter();
-            let row = row.map(|across| (across * down).round_ties_even() as i64);
-            self.weights.extend(row);
+            let across = self.across.chunks_exact(F32x8::WIDTH);
+            for (across, weights) in across.zip(row.chunks_exact_mut(F32x8::WIDTH)) {
+                if !footprint.is_flat() {
+                    for (weight, across) in weights.iter_mut().zip(across) {
+                        *weight = (across * down).round_ties_even() as i64;
+                    }
+                    continue;
+                }
+                let rounded = (F32x8::load(across) * down).round_ties_even();
+                let mut whole = [0; F32x8::WIDTH];
+                rounded.to_int().store(&mut whole);
+                for (weight, whole) in weights.iter_mut().zip(whole) {
+                    *weight = i64::from(whole.cast_signed());
+                }
+            }
         }
     }
 
@@ -180,8 +199,9 @@ impl Spread {
         mut add: impl FnMut(&mut [Fixed128; N], i64),
     ) {
         let stride = self.size.x as usize * self.channels;
-        for (row, weights) in self.weights.chunks_exact(self.columns).enumerate() {
+        for (row, weights) in self.weights.chunks_exact(self.stride).enumerate() {
             let line = &mut self.sums[self.first + row * stride..];
+            let weights = &weights[..self.columns];
             for (pixel, weight) in line.chunks_exact_mut(self.channels).zip(weights) {
                 if let Some(sums) = pixel[channel..].first_chunk_mut() {
                     add(sums, *weight);

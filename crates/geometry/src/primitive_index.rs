@@ -28,6 +28,8 @@ pub(crate) enum PrimitiveOwner {
 pub(crate) struct PrimitiveIndex {
     members: Vec<PrimitiveRange>,
     count: u32,
+    /// From this primitive on, and this member, each member has one: instances, and smooth shapes at the end.
+    single: (u32, usize),
     /// Box of everything that has an end.
     pub(crate) bounds: Bounds,
     /// Whether anything has none.
@@ -56,6 +58,9 @@ impl PrimitiveIndex {
             .count
             .checked_add(primitives)
             .expect("fewer than 2³² primitives");
+        if primitives > 1 {
+            self.single = (self.count, self.members.len());
+        }
         if bounds.is_endless() {
             self.is_endless = true;
             return;
@@ -79,6 +84,10 @@ impl PrimitiveIndex {
     #[inline]
     pub(crate) fn locate(&self, primitive: u32) -> (PrimitiveOwner, u32) {
         let members = self.members.as_slice();
+        let (first, member) = self.single;
+        if primitive >= first {
+            return (members[member + (primitive - first) as usize].thing, 0);
+        }
         // The last one that does not begin after it, which branches could not predict.
         let (mut at, mut count) = (0, members.len());
         while count > 1 {

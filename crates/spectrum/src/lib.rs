@@ -14,6 +14,7 @@ pub mod colour_space;
 pub mod conductor_colour;
 pub mod conductors;
 pub mod error;
+mod half_nanometres;
 pub mod illuminants;
 pub mod named_illuminants;
 pub mod quadrature;
@@ -28,6 +29,7 @@ pub mod wavelengths;
 
 pub use blackbody::Blackbody;
 pub use error::SpectrumError;
+pub use half_nanometres::SpectrumSummary;
 pub use quadrature::QuadratureNode;
 pub use refractive_index::RefractiveIndex;
 pub use sensor::{Sensor, SensorWeights, sensor_response};

@@ -1,6 +1,7 @@
 //! One type for every spectrum a scene can name, evaluated at the four wavelengths of a path.
 
-use crate::{Blackbody, Irregular, Regular, RgbSpectrum, SpectrumError, cie, colour_space, error};
+use crate::half_nanometres::HalfNanometres;
+use crate::{Blackbody, Irregular, Regular, RgbSpectrum, SpectrumError, colour_space, error};
 use crate::{LAMBDA_MAX, LAMBDA_MIN, illuminants};
 use glam::Vec4;
 use std::sync::{Arc, LazyLock};
@@ -146,19 +147,12 @@ impl Spectrum {
 
     /// ∫ dλ over 360–830 nm, by the trapezoidal rule at 0.5 nm.
     pub fn power(&self) -> f64 {
-        let steps = 2 * (LAMBDA_MAX - LAMBDA_MIN) as usize;
-        let sum: f64 = (0..=steps)
-            .map(|i| {
-                let weight = if i == 0 || i == steps { 0.25 } else { 0.5 };
-                weight * self.eval_at(LAMBDA_MIN + 0.5 * i as f64)
-            })
-            .sum();
-        sum
+        HalfNanometres::new(self).power()
     }
 
     /// Tristimulus value (X, Y, Z), for the spectrum as a radiance.
     pub fn xyz(&self) -> [f64; 3] {
-        cie::xyz(|lambda| self.eval_at(lambda))
+        HalfNanometres::new(self).xyz()
     }
 
     /// Luminance Y, for the spectrum as a radiance: 1 for D65.
@@ -173,9 +167,7 @@ impl Spectrum {
 
     /// Linear Rec. 709, for the spectrum as a reflectance lit by D65: (1, 1, 1) for the constant 1.
     pub fn rgb_under_d65(&self) -> [f64; 3] {
-        colour_space::xyz_to_rgb(cie::xyz(|lambda| {
-            self.eval_at(lambda) * illuminants::d65(lambda)
-        }))
+        HalfNanometres::new(self).rgb_under_d65()
     }
 
     /// The largest value (see [`Spectrum::range`]).
@@ -186,12 +178,17 @@ impl Spectrum {
     /// The smallest and the largest value at the whole nanometres of 360–830 nm and at the wavelengths of a table
     /// between them. Rounding in between does not count: no more is found than a table holds, and zero.
     pub fn range(&self) -> [f64; 2] {
+        self.range_of(&HalfNanometres::new(self))
+    }
+
+    /// The same where its values are known.
+    pub(crate) fn range_of(&self, values: &HalfNanometres) -> [f64; 2] {
         let extremes = |values: &mut dyn Iterator<Item = f64>| {
             values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
                 [a.min(x), b.max(x)]
             })
         };
-        let mut sampled = (0..cie::COUNT).map(|i| self.eval_at((cie::FIRST + i) as f64));
+        let mut sampled = values.nanometres();
         let knots: Vec<(f64, f64)> = match self {
             Self::Uniform(value) => return [f64::from(*value); 2],
             Self::Regular(table) => table.knots().collect(),

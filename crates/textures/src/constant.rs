@@ -4,7 +4,7 @@ use crate::reader::Use;
 use crate::texture::TextureModel;
 use crate::{Texture, TextureReader, TextureTable};
 use etalon_params::{Params, Value};
-use etalon_spectrum::{RgbSpectrum, Spectrum, colour_space};
+use etalon_spectrum::{RgbSpectrum, Spectrum, SpectrumSummary, colour_space};
 use etalon_transport::{Shapes, SpectrumKind, TexturePoint};
 use glam::Vec3;
 use glam::{DVec3, Vec4};
@@ -28,13 +28,20 @@ pub struct Constant {
 impl Constant {
     /// A spectrum.
     pub fn new(spectrum: Spectrum) -> Self {
-        let rgb = match &spectrum {
-            Spectrum::Uniform(value) => [f64::from(*value); 3],
-            _ => spectrum.rgb_under_d65(),
-        };
-        let mean = match &spectrum {
-            Spectrum::Uniform(value) => f64::from(*value),
-            _ => spectrum.mean(),
+        let SpectrumSummary {
+            mean,
+            rgb_under_d65: rgb,
+            range,
+        } = match &spectrum {
+            Spectrum::Uniform(value) => {
+                let value = f64::from(*value);
+                SpectrumSummary {
+                    mean: value,
+                    rgb_under_d65: [value; 3],
+                    range: [value; 2],
+                }
+            }
+            _ => spectrum.summary(),
         };
         let number = match &spectrum {
             Spectrum::Uniform(_) | Spectrum::Srgb(_) => mean,
@@ -44,7 +51,7 @@ impl Constant {
             number: number as f32,
             mean: mean as f32,
             colour: Vec3::from_array(rgb.map(|x| x as f32)),
-            range: spectrum.range().map(|x| x as f32),
+            range: range.map(|x| x as f32),
             spectrum,
         }
     }
