@@ -138,7 +138,7 @@ impl Sink for ExactTile<'_> {
     #[inline]
     fn radiance(&mut self, rgb: [f32; 3], alpha: f32) {
         let format = self.film.settings().pixel_format;
-        let colour = format.convert(rgb);
+        let mut colour = format.convert(rgb);
         if self.spreading {
             self.share(rgb, colour);
             if format.has_alpha() {
@@ -146,13 +146,16 @@ impl Sink for ExactTile<'_> {
             }
             return;
         }
-        match fixed(&colour[..self.colours], self.weight) {
+        colour[self.colours.min(3)..].fill(0.0);
+        match fixed(colour, self.weight) {
             Ok(terms) => {
                 self.bring(rgb, self.weight.abs());
-                for (channel, term) in terms.into_iter().enumerate().take(self.colours) {
-                    if let Err(fault) = self.sums[self.first_colour + channel].merge(term) {
-                        self.refuse("radiance", fault);
-                    }
+                let sums = &mut self.sums[self.first_colour..][..self.colours];
+                let refused = (sums.iter_mut().zip(terms))
+                    .filter_map(|(sum, term)| sum.merge(term).err())
+                    .fold((0, None), |(count, _), fault| (count + 1, Some(fault)));
+                if let (count, Some(fault)) = refused {
+                    (0..count).for_each(|_| self.refuse("radiance", fault));
                 }
             }
             Err(fault) => self.refuse("radiance", cause(rgb).unwrap_or(fault)),
@@ -308,12 +311,9 @@ impl Drop for ExactTile<'_> {
 /// The weighted colours in fixed point: all of them or none, so that one bad component does not
 /// leave a sample half counted.
 #[inline]
-fn fixed(colours: &[f32], weight: f32) -> Result<[Fixed128; 3], InvalidValue> {
-    let mut terms = [Fixed128::ZERO; 3];
-    for (term, colour) in terms.iter_mut().zip(colours) {
-        *term = Fixed128::from_f32(colour * weight)?;
-    }
-    Ok(terms)
+fn fixed(colour: [f32; 3], weight: f32) -> Result<[Fixed128; 3], InvalidValue> {
+    let [x, y, z] = colour.map(|value| Fixed128::from_f32(value * weight));
+    Ok([x?, y?, z?])
 }
 
 /// The fault of a colour before its conversion, which may turn one fault into another.

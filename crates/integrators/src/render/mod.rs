@@ -300,6 +300,7 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
         let alone = !integrator.splats();
         let mut sink = self.film.tile(from, to, alone);
         let mut jobs = Vec::with_capacity(BATCH_SIZE);
+        let mut near = Vec::new();
         let mut drawn = 0;
         let mut deliver = |jobs: &mut Vec<SampleJob<S>>| {
             batches.measure(|| {
@@ -313,12 +314,14 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
                     continue;
                 }
                 let dealt = self.film.dealt(pixel, samples);
+                near.clear();
+                near.extend(around(pixel, self.pass, rim));
                 for sample in self.film.done(pixel).max(self.begin)..self.target(dealt) {
                     // Checked while no sample is pending, so that every sample begun is finished.
                     if jobs.is_empty() && progress.cancelled() {
                         return (drawn, false);
                     }
-                    for pixel in around(pixel, self.pass, rim) {
+                    for &pixel in &near {
                         let address = plan.address(self.pass.replicate, pixel, sample, dealt);
                         let mut sampler = start(&address);
                         let numbers = sampler.next_2d();
