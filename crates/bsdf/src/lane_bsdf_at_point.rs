@@ -3,7 +3,7 @@
 use crate::{LaneModel, Material, ShadingContext};
 use arrayvec::ArrayVec;
 use etalon_math::lane::{Lane, LaneFrame, MOST_LANES, Mask, Spectral, Vector};
-use etalon_transport::{LaneBsdf, LaneBsdfSample, LaneKind, LaneVertices, Textures};
+use etalon_transport::{LaneBsdf, LaneBsdfSample, LaneKind, LaneVertices, TextureId, Textures};
 
 /// A model of scattering in lanes, in its own frame: z is the normal. Light is followed from the camera.
 pub(crate) trait LaneBxdf<F: Lane> {
@@ -17,6 +17,18 @@ pub(crate) trait LaneBxdf<F: Lane> {
 
     /// Samples a direction.
     fn sample_lanes(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F>;
+}
+
+/// The spectrum of a texture that each description names, at its point.
+#[inline(always)]
+pub(crate) fn spectra<'m, 's, F: Lane, D: 'm, T: Textures + 's>(
+    at: &impl Fn(usize) -> (&'m D, &'s ShadingContext<'s, T>),
+    texture: impl Fn(&D) -> TextureId,
+) -> F::Spectrum {
+    F::Spectrum::of_lanes(|i| {
+        let (description, site) = at(i);
+        site.spectrum(texture(description))
+    })
 }
 
 /// The value and the density of directions into which nothing is scattered.

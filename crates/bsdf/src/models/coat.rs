@@ -18,6 +18,7 @@ use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 
 use crate::ShadingContext;
 use crate::interface::relative_index::RelativeIndex;
+use crate::lane_bsdf_at_point::spectra;
 
 /// Textures and numbers of a coated diffuse base.
 #[derive(Clone, Debug)]
@@ -51,13 +52,7 @@ impl Coating {
         at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
         internal: F,
     ) -> Coat<F> {
-        let factor = |texture: fn(&Self) -> TextureId| {
-            F::Spectrum::of_lanes(|i| {
-                let (coating, site) = at(i);
-                site.spectrum(texture(coating))
-            })
-        };
-        let diffuse = factor(|coating| coating.diffuse);
+        let diffuse = spectra::<F, _, T>(&at, |coating| coating.diffuse);
         let nonlinear = F::Mask::from_fn(|i| at(i).0.nonlinear);
         let one = F::Spectrum::uniform(F::ONE);
         let absorbed = nonlinear.select(diffuse, one) * internal;
@@ -65,7 +60,7 @@ impl Coating {
         let eta = F::from_fn(|i| at(i).0.eta as f32);
         Coat {
             eta,
-            specular: factor(|coating| coating.specular),
+            specular: spectra::<F, _, T>(&at, |coating| coating.specular),
             diffuse,
             base: through * (F::splat(FRAC_1_PI) / (eta * eta)),
             returned: through * (F::ONE - internal),

@@ -9,7 +9,7 @@
 use crate::interface::fresnel;
 use crate::interface::metal::Metal;
 use crate::interface::refraction::reflect;
-use crate::lane_bsdf_at_point::{LaneBxdf, nothing};
+use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
 use crate::{Bxdf, ShadingContext};
 use etalon_math::lane::{Lane, Spectral, Vector};
 use etalon_params::Params;
@@ -57,10 +57,6 @@ impl Description {
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
         at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
     ) -> Conductor<F> {
-        let reflectance = |i: usize| {
-            let (description, site) = at(i);
-            site.spectrum(description.reflectance)
-        };
         let [eta, k] = Metal::in_lanes::<F, T>(|i| {
             let (description, site) = at(i);
             (&description.metal, site)
@@ -68,7 +64,7 @@ impl Description {
         Conductor {
             eta,
             k,
-            reflectance: F::Spectrum::of_lanes(reflectance),
+            reflectance: spectra::<F, _, T>(&at, |description| description.reflectance),
         }
     }
 }

@@ -14,7 +14,7 @@
 use crate::interface::fresnel;
 use crate::interface::refraction::reflect;
 use crate::interface::relative_index::RelativeIndex;
-use crate::lane_bsdf_at_point::{LaneBxdf, nothing};
+use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
 use crate::{Bxdf, ShadingContext};
 use etalon_math::lane::{Lane, Select, Spectral, Vector, branch};
 use etalon_params::Params;
@@ -63,20 +63,14 @@ impl Description {
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
         at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
     ) -> Dielectric<F> {
-        let factor = |texture: fn(&Self) -> TextureId| {
-            F::Spectrum::of_lanes(|i| {
-                let (description, site) = at(i);
-                site.spectrum(texture(description))
-            })
-        };
         let eta = |i: usize| {
             let (description, site) = at(i);
             description.eta.eval(site)
         };
         Dielectric {
             eta: F::Spectrum::of_lanes(eta),
-            reflectance: factor(|description| description.reflectance),
-            transmittance: factor(|description| description.transmittance),
+            reflectance: spectra::<F, _, T>(&at, |description| description.reflectance),
+            transmittance: spectra::<F, _, T>(&at, |description| description.transmittance),
             mirrored: F::ZERO,
         }
     }

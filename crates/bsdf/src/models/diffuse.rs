@@ -6,7 +6,7 @@
 //!
 //! Lambert (1760), *Photometria*. Sampled with density cos θi / π.
 
-use crate::lane_bsdf_at_point::LaneBxdf;
+use crate::lane_bsdf_at_point::{LaneBxdf, spectra};
 use crate::{Bxdf, ShadingContext};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector};
@@ -50,12 +50,8 @@ impl Description {
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
         at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
     ) -> Diffuse<F> {
-        let reflectance = |i: usize| {
-            let (description, site) = at(i);
-            site.spectrum(description.reflectance)
-        };
         Diffuse {
-            reflectance: F::Spectrum::of_lanes(reflectance),
+            reflectance: spectra::<F, _, T>(&at, |description| description.reflectance),
         }
     }
 }

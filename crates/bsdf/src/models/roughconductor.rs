@@ -10,7 +10,7 @@
 use crate::interface::fresnel;
 use crate::interface::metal::Metal;
 use crate::interface::refraction::{half_vector, reflect};
-use crate::lane_bsdf_at_point::{LaneBxdf, nothing};
+use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
 use crate::microfacet::Microfacet;
 use crate::microfacet::roughness::Roughness;
 use crate::{Bxdf, ShadingContext};
@@ -68,10 +68,6 @@ impl Description {
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
         at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
     ) -> RoughConductor<F> {
-        let reflectance = |i: usize| {
-            let (description, site) = at(i);
-            site.spectrum(description.reflectance)
-        };
         let [eta, k] = Metal::in_lanes::<F, T>(|i| {
             let (description, site) = at(i);
             (&description.metal, site)
@@ -79,7 +75,7 @@ impl Description {
         RoughConductor {
             eta,
             k,
-            reflectance: F::Spectrum::of_lanes(reflectance),
+            reflectance: spectra::<F, _, T>(&at, |description| description.reflectance),
             microfacet: Roughness::in_lanes(|i| {
                 let (description, site) = at(i);
                 (&description.roughness, site)
