@@ -94,7 +94,9 @@ pub(crate) fn follow<'w, W: World, S: Sampler, C: PathHooks, const N: usize>(
 ) {
     while batch.goes_on() {
         batch.intersect(world, config);
-        batch.arrive(|path, ray, hit| arrive(world, config, path, (ray, hit)));
+        batch.arrive((world, config), |path, ray, hit| {
+            arrive(world, config, path, (ray, hit))
+        });
         batch.scatter((world, config), |path, ray, vertex| {
             scatter(world, config, path, (ray, vertex))
         });

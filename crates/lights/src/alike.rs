@@ -1,7 +1,7 @@
 //! Lights that are sampled together in lanes: those of one kind, each lane its own light.
 
 use crate::{Light, LightSet};
-use etalon_math::lane::{Int, Lane, Mask, Select};
+use etalon_math::lane::{Int, Lane, Mask, Select, Spectral};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{LaneLightSample, LaneReceiver, LightId, Shapes, Textures};
 use glam::Vec2;
@@ -82,5 +82,23 @@ impl LightSet {
             is_alone(i).then(|| at(choice.at_lane(i))).flatten()
         });
         LaneLightSample::choose(F::Mask::from_fn(is_alone), by_itself, sample)
+    }
+
+    /// [`LightSet::background`] and [`LightSet::background_density`] in lanes.
+    #[inline]
+    pub fn background_lanes<F: Lane>(
+        &self,
+        textures: &impl Textures,
+        from: &LaneReceiver<F>,
+        direction: F::Vector,
+        wavelengths: &[Wavelengths],
+    ) -> (F::Spectrum, F) {
+        let nothing = (F::Spectrum::uniform(F::ZERO), F::ZERO);
+        self.backgrounds.iter().fold(nothing, |sum, &light| {
+            let probability = self.selector.probability_lanes(from, light);
+            let (radiance, density) =
+                (self.get(light)).background_lanes(textures, from, direction, wavelengths);
+            (sum.0 + radiance, sum.1 + density * probability)
+        })
     }
 }

@@ -122,6 +122,21 @@ impl LightModel for ConstantLight {
     }
 
     #[inline]
+    fn background_lanes<F: Lane>(
+        &self,
+        textures: &impl Textures,
+        from: &LaneReceiver<F>,
+        direction: F::Vector,
+        wavelengths: &[Wavelengths],
+    ) -> (F::Spectrum, F) {
+        let radiance = |i: usize| self.background(textures, Vec3::ZERO, &wavelengths[i]);
+        (
+            F::Spectrum::of_lanes(radiance),
+            density_toward(from, direction),
+        )
+    }
+
+    #[inline]
     fn sample(
         &self,
         textures: &(impl Textures + Shapes),

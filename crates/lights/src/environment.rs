@@ -19,23 +19,21 @@
 use crate::latitude_longitude as map;
 use crate::light_model::LightModel;
 use crate::pose::Pose;
-use crate::{BoundingSphere, latitude_longitude, sky};
+use crate::sky_image::SkyImage;
+use crate::{BoundingSphere, sky};
 use etalon_images::raster_file;
-use etalon_math::lane::{Int, Lane, Mask, Select, Spectral};
+use etalon_math::lane::{Lane, Mask, Select, Vector};
 use etalon_math::{Density, SolidAngle, float64};
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::discrete::Bilinear;
-use etalon_spectrum::{Regular, RgbCoefficients, Spectrum, Wavelengths, illuminants};
+use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
     Build, Emission, EmissionPdf, LaneLightSample, LaneReceiver, LightSample, LightSampleContext,
     Shapes, Textures, file,
 };
 use glam::{UVec2, Vec2, Vec3, Vec4};
 use std::path::Path;
-use std::sync::{Arc, LazyLock};
-
-/// D65, scaled so that it looks white with luminance one.
-static WHITE: LazyLock<Regular> = LazyLock::new(illuminants::d65_spectrum);
+use std::sync::Arc;
 
 /// The mean of sin πv over the hat function of each of `height` ≥ 2 rows at v = j/(h − 1), with
 /// k = π/(h − 1):
@@ -80,46 +78,6 @@ struct Tables {
     /// Without compensation, for particles and for estimators that have no other technique: every
     /// direction must have a density.
     alone: Option<Arc<Bilinear>>,
-}
-
-/// Texels: three coefficients of a spectrum and its factor.
-#[derive(Debug)]
-struct SkyImage {
-    size: UVec2,
-    texels: Vec<Vec4>,
-}
-
-/// Places, each between four texels.
-struct Cell<F: Lane> {
-    texels: [F::Int; 4],
-    weights: [F; 4],
-}
-
-impl SkyImage {
-    /// The cells at places of the unit square whose u begins at the centre of the first column.
-    #[inline(always)]
-    fn cell<F: Lane>(&self, [u, v]: [F; 2]) -> Cell<F> {
-        let UVec2 { x: w, y: h } = self.size;
-        let (x, y) = (u * w as f32, v * (h - 1) as f32);
-        let within =
-            |i: F::Int, end: u32| i.lt(F::Int::splat(end)).select(i, F::Int::splat(end - 1));
-        let (i, j) = (within(x.to_int(), w), within(y.to_int(), h - 1));
-        let (a, b) = (x - F::from_int(i), y - F::from_int(j));
-        let next = i.wrapping_add(F::Int::splat(1));
-        let next = next.lt(F::Int::splat(w)).select(next, F::Int::splat(0));
-        let row = j.wrapping_mul(F::Int::splat(w));
-        let below = row.wrapping_add(F::Int::splat(w));
-        let (left, top) = (F::ONE - a, F::ONE - b);
-        Cell {
-            texels: [
-                row.wrapping_add(i),
-                row.wrapping_add(next),
-                below.wrapping_add(i),
-                below.wrapping_add(next),
-            ],
-            weights: [left * top, a * top, left * b, a * b],
-        }
-    }
 }
 
 impl EnvironmentMap {
@@ -191,49 +149,33 @@ impl EnvironmentMap {
         } else {
             alone.clone()
         };
-        let texels = pixels.rgb.iter().map(|&rgb| texel(rgb)).collect();
         let white = Spectrum::D65(etalon_spectrum::RgbSpectrum::WHITE).mean();
         Self {
             pose,
             scale,
-            image: Arc::new(SkyImage {
-                size: pixels.size,
-                texels,
-            }),
+            image: Arc::new(SkyImage::new(pixels.size, &pixels.rgb)),
             tables: Tables { combined, alone },
             mean: sums[1] / sums[2] * white * f64::from(scale),
         }
     }
 
     /// The unit square of `map`, moved so that u begins at the centre of the first column.
-    #[inline]
-    fn place(&self, local: Vec3) -> Vec2 {
-        let uv = map::to_square(local);
-        let u = uv.x - self.half_texel();
-        Vec2::new(if u < 0.0 { u + 1.0 } else { u }, uv.y)
+    #[inline(always)]
+    fn place<F: Lane>(&self, local: F::Vector) -> [F; 2] {
+        let [u, v] = map::to_square::<F>(local);
+        let u = u - self.half_texel();
+        [u.lt(F::ZERO).select(u + 1.0, u), v]
     }
 
     #[inline]
     fn half_texel(&self) -> f32 {
-        0.5 / self.image.size.x as f32
+        0.5 / self.image.size().x as f32
     }
 
     /// Radiance at moved places, at the wavelengths `lambda(i)` in lane i.
     #[inline(always)]
     fn radiance<F: Lane>(&self, place: [F; 2], lambda: impl Fn(usize) -> Vec4) -> F::Spectrum {
-        let [lambda, white] = F::Spectrum::pairs_of_lanes(|i| {
-            let lambda = lambda(i);
-            [lambda, WHITE.eval(lambda)]
-        });
-        let Cell { texels, weights } = self.image.cell(place);
-        let mut spectrum = F::Spectrum::uniform(F::ZERO);
-        for (texel, weight) in texels.into_iter().zip(weights) {
-            let texel = |i: usize| self.image.texels[texel.lane(i) as usize];
-            let [a, b, c, m] = F::Spectrum::of_lanes(texel).waves();
-            let smooth = RgbCoefficients::eval_lanes::<F>([a, b, c], lambda);
-            spectrum = spectrum + smooth * (m * weight);
-        }
-        white * spectrum * F::splat(self.scale)
+        self.image.radiance(place, lambda) * F::splat(self.scale)
     }
 
     /// The distribution of directions for the receiver `from`.
@@ -245,15 +187,26 @@ impl EnvironmentMap {
 
     #[inline]
     fn density_of(&self, directions: Option<&Bilinear>, direction: Vec3) -> f32 {
-        let Some(directions) = directions else {
-            return 0.0;
-        };
         let local = self.pose.to_local(direction);
-        let sin_theta = Vec2::new(local.x, local.z).length();
-        if !(sin_theta > 0.0) {
-            return 0.0;
-        }
-        directions.density(self.place(local)) / latitude_longitude::stretch(sin_theta)
+        self.density_at::<f32>(directions, local, self.place::<f32>(local))
+    }
+
+    /// The densities (sr⁻¹) of directions in the map's space and their places.
+    #[inline(always)]
+    fn density_at<F: Lane>(
+        &self,
+        directions: Option<&Bilinear>,
+        local: F::Vector,
+        [u, v]: [F; 2],
+    ) -> F {
+        let Some(directions) = directions else {
+            return F::ZERO;
+        };
+        let [x, _, z] = local.xyz();
+        let sin_theta = (x * x + z * z).sqrt();
+        let per_area = F::from_fn(|i| directions.density(Vec2::new(u.lane(i), v.lane(i))));
+        let density = per_area / map::stretch(sin_theta);
+        sin_theta.gt(F::ZERO).select(density, F::ZERO)
     }
 
     /// Directions, of lanes where they are `wanted`, with their places and densities (sr⁻¹); 0 where there is none.
@@ -315,8 +268,26 @@ impl LightModel for EnvironmentMap {
 
     #[inline]
     fn background(&self, _: &impl Textures, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        let place = self.place(self.pose.to_local(direction)).to_array();
+        let place = self.place::<f32>(self.pose.to_local(direction));
         self.radiance::<f32>(place, |_| wavelengths.lambda)
+    }
+
+    #[inline]
+    fn background_lanes<F: Lane>(
+        &self,
+        _: &impl Textures,
+        _: &LaneReceiver<F>,
+        direction: F::Vector,
+        wavelengths: &[Wavelengths],
+    ) -> (F::Spectrum, F) {
+        let local = self.pose.to_local_lanes::<F>(direction);
+        let place = self.place(local);
+        // Receivers in lanes combine it with scattering.
+        let directions = self.tables.combined.as_deref();
+        (
+            self.radiance(place, |i| wavelengths[i].lambda),
+            self.density_at(directions, local, place),
+        )
     }
 
     #[inline]
@@ -387,18 +358,6 @@ impl LightModel for EnvironmentMap {
     fn power(&self, _: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {
         4.0 * core::f64::consts::PI * bounds.cross_section() * self.mean
     }
-}
-
-/// A texel for a colour with components not below zero.
-fn texel(rgb: [f32; 3]) -> Vec4 {
-    let factor = 2.0 * rgb[0].max(rgb[1]).max(rgb[2]);
-    let part = if factor > 0.0 {
-        rgb.map(|c| c / factor)
-    } else {
-        [0.0; 3]
-    };
-    let RgbCoefficients([a, b, c]) = RgbCoefficients::from_rgb(part);
-    Vec4::new(a, b, c, factor)
 }
 
 /// Linear Rec.709 pixels, row after row from the top; at least two rows.

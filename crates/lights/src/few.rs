@@ -173,6 +173,13 @@ impl FewLights {
         choice
     }
 
+    /// [`FewLights::probability`] in lanes, for one light.
+    #[inline(always)]
+    pub fn probability_lanes<F: Lane>(&self, from: &LaneReceiver<F>, light: LightId) -> F {
+        let at = self.lights.iter().position(|one| one.light == light);
+        at.map_or(F::ZERO, |at| self.shares(self.expected(from))[at])
+    }
+
     /// The probability with which [`FewLights::choose`] chooses `light` for `from`.
     #[inline]
     pub fn probability(&self, from: &LightSampleContext, light: LightId) -> f32 {

@@ -9,18 +9,18 @@
 //! viewer who looks along +Z.
 
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
-use etalon_math::lane::{self, Lane, Vector, sin_cos_turns};
-use glam::{Vec2, Vec3};
+use etalon_math::lane::{self, Lane, Select, Vector, sin_cos_turns};
 
-/// The place in the unit square of a unit direction; u in [0, 1).
-#[inline]
-pub fn to_square(direction: Vec3) -> Vec2 {
-    let turns = lane::atan2(direction.x, -direction.z) / TAU;
+/// The places in the unit square of unit directions; u in [0, 1).
+#[inline(always)]
+pub fn to_square<F: Lane>(direction: F::Vector) -> [F; 2] {
+    let [x, y, z] = direction.xyz();
+    let turns = lane::atan2(x, -z) / TAU;
     // atan2 of the horizontal and vertical parts keeps its precision at the poles.
-    let horizontal = Vec2::new(direction.x, direction.z).length();
-    let theta = lane::atan2(horizontal, direction.y);
+    let horizontal = (x * x + z * z).sqrt();
+    let theta = lane::atan2(horizontal, y);
     let u = turns - turns.floor();
-    Vec2::new(if u < 1.0 { u } else { 0.0 }, theta * FRAC_1_PI)
+    [u.lt(F::ONE).select(u, F::ZERO), theta * FRAC_1_PI]
 }
 
 /// The unit directions at places of the unit square, and sin θ there.
@@ -41,6 +41,7 @@ pub fn stretch<F: Lane>(sin_theta: F) -> F {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::{Vec2, Vec3};
     use proptest::prelude::*;
     use proptest::test_runner::RngSeed;
 
@@ -55,7 +56,7 @@ mod tests {
         fn square_and_sphere_correspond(u in 0.0f32..1.0, v in 0.02f32..0.98) {
             let (direction, sin_theta) = to_direction::<f32>([u, v]);
             prop_assert!((direction.length() - 1.0).abs() < 1e-6);
-            let back = to_square(direction);
+            let back = Vec2::from(to_square::<f32>(direction));
             prop_assert!((0.0..1.0).contains(&back.x));
             let turn = (back.x - u).abs();
             // u is periodic; an angle's error grows as 1/sin θ toward the poles.
@@ -78,9 +79,10 @@ mod tests {
 
     #[test]
     fn poles_and_axes() {
-        assert_eq!(to_square(Vec3::Y).y, 0.0);
-        assert!((to_square(Vec3::NEG_Y).y - 1.0).abs() < 1e-6);
-        assert!((to_square(Vec3::Z) - Vec2::splat(0.5)).abs().max_element() < 1e-6);
-        assert!((to_square(Vec3::X).x - 0.25).abs() < 1e-6);
+        let at = |direction| Vec2::from(to_square::<f32>(direction));
+        assert_eq!(at(Vec3::Y).y, 0.0);
+        assert!((at(Vec3::NEG_Y).y - 1.0).abs() < 1e-6);
+        assert!((at(Vec3::Z) - Vec2::splat(0.5)).abs().max_element() < 1e-6);
+        assert!((at(Vec3::X).x - 0.25).abs() < 1e-6);
     }
 }

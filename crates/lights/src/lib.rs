@@ -29,6 +29,7 @@ pub mod pose;
 mod projector;
 pub mod set;
 mod sky;
+mod sky_image;
 pub mod spot;
 pub mod sunsky;
 pub mod tree;

@@ -250,6 +250,18 @@ impl Light {
         ask!(self, light => light.background_density(from, direction))
     }
 
+    /// [`Light::background`] and [`Light::background_density`] in lanes.
+    #[inline]
+    pub(crate) fn background_lanes<F: Lane>(
+        &self,
+        textures: &impl Textures,
+        from: &LaneReceiver<F>,
+        direction: F::Vector,
+        wavelengths: &[Wavelengths],
+    ) -> (F::Spectrum, F) {
+        ask!(self, light => light.background_lanes(textures, from, direction, wavelengths))
+    }
+
     /// The densities with which [`Light::emit`] makes a particle travel along `direction`, whose
     /// angle with the surface has the cosine `cos`.
     #[inline]

@@ -1,7 +1,7 @@
 //! The methods of a light, with defaults that most of them share.
 
 use crate::{BoundingSphere, LightExtent};
-use etalon_math::lane::Lane;
+use etalon_math::lane::{Lane, Spectral, Vector};
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
@@ -38,6 +38,27 @@ pub(crate) trait LightModel {
     #[inline]
     fn background(&self, _: &impl Textures, _direction: Vec3, _: &Wavelengths) -> Vec4 {
         Vec4::ZERO
+    }
+
+    /// [`LightModel::background`] and [`LightModel::background_density`] in lanes.
+    #[inline]
+    fn background_lanes<F: Lane>(
+        &self,
+        textures: &impl Textures,
+        from: &LaneReceiver<F>,
+        direction: F::Vector,
+        wavelengths: &[Wavelengths],
+    ) -> (F::Spectrum, F) {
+        let along = |i: usize| direction.at_lane(i);
+        let density = |i: usize| {
+            self.background_density(&from.at_lane(i), along(i))
+                .lanes()
+                .x
+        };
+        (
+            F::Spectrum::of_lanes(|i| self.background(textures, along(i), &wavelengths[i])),
+            F::from_fn(density),
+        )
     }
 
     /// A direction from `from` to the light.

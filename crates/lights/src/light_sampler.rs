@@ -308,6 +308,19 @@ impl LightSampler {
         }
     }
 
+    /// [`LightSampler::probability`] in lanes, for one light.
+    #[inline]
+    pub fn probability_lanes<F: Lane>(&self, from: &LaneReceiver<F>, light: LightId) -> F {
+        match &self.for_points {
+            Some(ForPoints::Few(few)) => few.probability_lanes(from, light),
+            Some(ForPoints::Tree { .. }) => {
+                F::from_fn(|i| self.probability(&from.at_lane(i), light))
+            }
+            // It is the same for all.
+            _ => F::splat(self.probability(&from.at_lane(0), light)),
+        }
+    }
+
     /// The probability with which [`LightSampler::choose_to_emit`] chooses `light`.
     #[inline]
     pub fn probability_to_emit(&self, light: LightId) -> f32 {

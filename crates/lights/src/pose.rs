@@ -70,6 +70,12 @@ impl Pose {
         self.transform.vectors::<F>(direction).normalized()
     }
 
+    /// The directions (unit) in the light's space of world directions.
+    #[inline(always)]
+    pub fn to_local_lanes<F: Lane>(&self, direction: F::Vector) -> F::Vector {
+        (self.transform.inverse().vectors::<F>(direction)).normalized()
+    }
+
     /// The direction (unit) in the light's space of a world direction.
     #[inline]
     pub fn to_local(&self, direction: Vec3) -> Vec3 {

@@ -21,7 +21,7 @@ pub struct LightSet {
     /// For each, the first that can be sampled in lanes together with it; none if it is sampled by itself.
     pub(crate) alike: Vec<LightId>,
     /// The lights that rays see at infinity.
-    backgrounds: Vec<LightId>,
+    pub(crate) backgrounds: Vec<LightId>,
     powers: Vec<f64>,
     pub(crate) selector: LightSampler,
     /// The only light that is ever chosen.

@@ -51,6 +51,22 @@ impl<F: Lane> LaneReceiver<F> {
         self.normal.is_zero().select(F::ONE, counted)
     }
 
+    /// `from(i)` in lane i.
+    #[inline(always)]
+    pub fn of_lanes<'r>(from: impl Fn(usize) -> &'r LightSampleContext) -> Self {
+        let [px, py, pz, nx, ny, nz, time, _] = F::columns(|i| {
+            let from = from(i);
+            let ([px, py, pz], [nx, ny, nz]) = (from.position.to_array(), from.normal.to_array());
+            [px, py, pz, nx, ny, nz, from.time, 0.0]
+        });
+        Self {
+            position: F::Vector::from_xyz(px, py, pz),
+            normal: F::Vector::from_xyz(nx, ny, nz),
+            one_sided: F::Mask::from_fn(|i| from(i).one_sided),
+            time,
+        }
+    }
+
     /// The receiver in each lane.
     #[inline(always)]
     pub fn lanes(&self) -> F::Array<LightSampleContext> {
@@ -289,6 +305,16 @@ pub trait LaneShading: Sync {
         u_light: F,
         u: [F; 2],
     ) -> LaneLightSample<F>;
+
+    /// Radiance of the lights at infinity seen along unit vectors, and the densities (sr⁻¹) with which receivers choose these
+    /// directions, as [`Lights::background`](crate::Lights::background) and
+    /// [`World::background_density`](crate::World::background_density) say.
+    fn background<F: Lane>(
+        &self,
+        from: &LaneReceiver<F>,
+        direction: F::Vector,
+        wavelengths: &[Wavelengths],
+    ) -> (F::Spectrum, F);
 }
 
 /// The lanes of worlds that shade one vertex at a time; there is no value of it.
@@ -332,6 +358,15 @@ impl LaneShading for NoLanes {
         _: F,
         _: [F; 2],
     ) -> LaneLightSample<F> {
+        match *self {}
+    }
+
+    fn background<F: Lane>(
+        &self,
+        _: &LaneReceiver<F>,
+        _: F::Vector,
+        _: &[Wavelengths],
+    ) -> (F::Spectrum, F) {
         match *self {}
     }
 }

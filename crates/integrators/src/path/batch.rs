@@ -29,6 +29,8 @@ pub(crate) struct PathBatch<'w, W: World + 'w, S, C, const N: usize> {
     pub(super) rays: ArrayVec<Ray, N>,
     /// The nearest surface along it.
     hits: [Option<Hit>; N],
+    /// Indices in `active` of those that see lights at infinity.
+    pub(super) escaped: ArrayVec<usize, N>,
     /// Those that have reached a surface.
     pub(super) arrived: ArrayVec<Arrived, N>,
     /// Indices in `paths` of those that go on, and their next rays.
@@ -49,6 +51,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             active: ArrayVec::new(),
             rays: ArrayVec::new(),
             hits: [None; N],
+            escaped: ArrayVec::new(),
             arrived: ArrayVec::new(),
             continued: ArrayVec::new(),
             waiting: ArrayVec::new(),
@@ -94,18 +97,29 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
     #[inline]
     pub(crate) fn arrive(
         &mut self,
+        (world, config): (&'w W, &PathConfig),
         mut arrive: impl FnMut(
             &mut PathState<'w, W, S, C>,
             &Ray,
             Option<&Hit>,
         ) -> ControlFlow<Step, SurfaceInteraction>,
     ) {
+        let lanes = self.background_in_lanes(world);
         for segment in 0..self.active.len() {
             let (path, ray) = (self.active[segment], &self.rays[segment]);
+            if lanes.is_some() && self.hits[segment].is_none() && !ray.medium.is_some() {
+                if config.limits.sees_background(self.paths[path].alpha()) {
+                    self.escaped.push(segment);
+                }
+                continue;
+            }
             match arrive(&mut self.paths[path], ray, self.hits[segment].as_ref()) {
                 ControlFlow::Continue(vertex) => self.arrived.push(Arrived { segment, vertex }),
                 ControlFlow::Break(step) => self.take(path, step),
             }
+        }
+        if let Some(lanes) = lanes {
+            self.see_background(lanes, config);
         }
     }
 

@@ -16,7 +16,7 @@ use etalon_math::float::ONE_MINUS_EPSILON;
 use etalon_math::lane::{F32x8, Lane, Mask, Select, Spectral, Vector};
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, Leaving, LeavingRays,
+    LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, Leaving, LeavingRays, Lights,
     MediumInterface, ShadowQuery, World,
 };
 
@@ -156,6 +156,54 @@ impl<F: Lane, L: LaneShading> LaneVertex<'_, '_, F, L> {
 }
 
 impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S, C, N> {
+    /// What sees lights at infinity for several paths at once, if there are any.
+    #[inline]
+    pub(super) fn background_in_lanes(&self, world: &'w W) -> Option<&'w W::Lanes> {
+        (world.lanes()).filter(|_| C::PLAIN && world.lights().has_background())
+    }
+
+    /// Adds what the paths that have escaped see.
+    #[inline(never)]
+    pub(super) fn see_background(&mut self, lanes: &W::Lanes, config: &PathConfig) {
+        for begin in (0..self.escaped.len()).step_by(Lanes::WIDTH) {
+            let group = self.escaped[begin..].iter().take(Lanes::WIDTH).copied();
+            let group: ArrayVec<usize, { Lanes::WIDTH }> = group.collect();
+            match group.len() < ENOUGH {
+                true => (group.iter()).for_each(|segment| {
+                    self.see_background_together::<f32>(lanes, config, &[*segment]);
+                }),
+                false => self.see_background_together::<Lanes>(lanes, config, &group),
+            }
+        }
+        self.escaped.clear();
+    }
+
+    /// Adds what up to as many paths as there are lanes see.
+    #[inline(always)]
+    fn see_background_together<F: Lane>(
+        &mut self,
+        lanes: &W::Lanes,
+        config: &PathConfig,
+        segments: &[usize],
+    ) {
+        let segment = |i: usize| segments[i.min(segments.len() - 1)];
+        let index = F::array(|i| self.active[segment(i)]);
+        let path = |i: usize| &self.paths[index.as_ref()[i]];
+        let wavelengths = F::array(|i| path(i).wavelengths);
+        let direction = F::Vector::of_lanes(|i| self.rays[segment(i)].direction);
+        let from = LaneReceiver::<F>::of_lanes(|i| &path(i).light_mis.from);
+        let (radiance, density) = lanes.background(&from, direction, wavelengths.as_ref());
+        let throughput = PathThroughput::<F>::of_lanes(|i| &path(i).throughput);
+        let r_l = F::Spectrum::of_lanes(|i| path(i).light_mis.r_l);
+        let never = F::Spectrum::uniform(F::ZERO);
+        let by_light_sampling = F::Spectrum::choose(r_l.is_zero(), never, r_l * density);
+        let seen = throughput.contribution(radiance, by_light_sampling);
+        for i in 0..segments.len() {
+            let path = &mut self.paths[index.as_ref()[i]];
+            path.see_background(config, seen.at_lane(i));
+        }
+    }
+
     /// Scatters paths at surfaces that have a kind, as many together as there are lanes, and calls `alone` for every other one.
     #[inline]
     pub(super) fn scatter_by_kind(

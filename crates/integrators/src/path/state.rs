@@ -201,14 +201,20 @@ impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
                 Some(vertex)
             }
             Arrival::Background(emission) => {
-                if !config.alpha_of_surfaces {
-                    self.alpha = 1.0;
-                }
-                self.add(emission);
+                self.see_background(config, emission);
                 None
             }
             Arrival::Nothing => None,
         }
+    }
+
+    /// Adds the contribution of lights at infinity.
+    #[inline]
+    pub(crate) fn see_background(&mut self, config: &PathConfig, estimate: Vec4) {
+        if !config.alpha_of_surfaces {
+            self.alpha = 1.0;
+        }
+        self.add(estimate);
     }
 
     /// Adds the contribution of emission that the path hit.

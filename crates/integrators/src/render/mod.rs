@@ -315,7 +315,10 @@ impl<W: World, I: Integrator, F: Film> Round<'_, '_, W, I, F> {
                 }
                 let dealt = self.film.dealt(pixel, samples);
                 near.clear();
-                near.extend(around(pixel, self.pass, rim));
+                match rim {
+                    0 => near.push(pixel),
+                    _ => near.extend(around(pixel, self.pass, rim)),
+                }
                 for sample in self.film.done(pixel).max(self.begin)..self.target(dealt) {
                     // Checked while no sample is pending, so that every sample begun is finished.
                     if jobs.is_empty() && progress.cancelled() {

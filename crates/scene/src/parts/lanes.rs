@@ -39,4 +39,14 @@ impl LaneShading for Parts {
         let scene = &self.space.lookup;
         (self.lights).sample_lanes(scene, (from, wavelengths), wanted, u_light, u)
     }
+
+    #[inline]
+    fn background<F: Lane>(
+        &self,
+        from: &LaneReceiver<F>,
+        direction: F::Vector,
+        wavelengths: &[Wavelengths],
+    ) -> (F::Spectrum, F) {
+        (self.lights).background_lanes(&self.space.lookup, from, direction, wavelengths)
+    }
 }

@@ -4,7 +4,7 @@ use crate::reading::{LANES, scene};
 use etalon_math::lane::{F32x8, F32x16, Lane, Mask, Spectral, Vector};
 use etalon_sampling::{Independent, Sampler};
 use etalon_scene::Scene;
-use etalon_transport::{LaneReceiver, LaneShading, World};
+use etalon_transport::{LaneReceiver, LaneShading, Lights, World};
 use glam::{Vec2, Vec3};
 
 const LAMP: &str = "<shape type=\"rectangle\"><transform name=\"to_world\"><scale x=\"0.7\" y=\"0.4\"/><rotate x=\"1\" y=\"2\" \
@@ -12,12 +12,16 @@ const LAMP: &str = "<shape type=\"rectangle\"><transform name=\"to_world\"><scal
 const MOVED: &str = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"rectangle\"><emitter type=\"area\"/></shape></shape>\
                      <shape type=\"instance\"><ref id=\"g\"/><transform name=\"to_world\"><translate x=\"1\"/></transform></shape>";
 
+/// Numbers from −1 to 1.
+fn random_numbers(random: &mut impl Sampler) -> [f32; 16] {
+    [(); 16].map(|()| 2.0 * random.next_1d() - 1.0)
+}
+
 /// Compares as many light samples as there are lanes with the same ones alone.
 fn compare<F: Lane>(world: &Scene, reach: f32, random: &mut impl Sampler) {
     let lanes = world.lanes().expect("a scene without media");
-    let mut number = || [(); 16].map(|()| random.next_1d());
-    let [x, y, z, nx, ny, nz] = [(); 6].map(|()| number().map(|u| 2.0 * u - 1.0));
-    let [choice, u, v, coin] = [(); 4].map(|()| number());
+    let [x, y, z, nx, ny, nz] = [(); 6].map(|()| random_numbers(random));
+    let [choice, u, v, coin] = [(); 4].map(|()| [(); 16].map(|()| random.next_1d()));
     let normal = |i: usize| match coin[i] < 0.2 {
         true => Vec3::ZERO,
         false => Vec3::new(nx[i], ny[i], nz[i]).normalize_or(Vec3::Z),
@@ -37,7 +41,16 @@ fn compare<F: Lane>(world: &Scene, reach: f32, random: &mut impl Sampler) {
         u_light,
         [u, v],
     );
+    let [x, y, z] = [(); 3].map(|()| random_numbers(random));
+    let along = |i: usize| Vec3::new(x[i], y[i], z[i]).normalize_or(Vec3::Y);
+    let direction = F::Vector::of_lanes(along);
+    let (seen, density) = LaneShading::background(lanes, &from, direction, &waves[..F::WIDTH]);
     for i in 0..F::WIDTH {
+        let receiver = from.at_lane(i);
+        let radiance = Lights::background(world.lights(), along(i), &LANES);
+        assert_eq!(seen.at_lane(i), radiance);
+        let alone = world.background_density(&receiver, along(i)).lanes().x;
+        assert_eq!(density.lane(i), alone);
         let u = Vec2::new(u.lane(i), v.lane(i));
         let alone = world.sample_light(&from.at_lane(i), &LANES, u_light.lane(i), u);
         assert_eq!(together.found.lane(i), alone.is_some());
@@ -56,7 +69,8 @@ fn compare<F: Lane>(world: &Scene, reach: f32, random: &mut impl Sampler) {
 
 /// Alone and together. Mutants rejected: a near receiver that samples by area, radiance on the back of a lamp, a placed lamp where
 /// its shape was, the light of another lane's choice, a density without the probability of the light, one sky of two that is not
-/// the sum, a texel of the next row.
+/// the sum, a texel of the next row, a background without
+/// the probability of the light.
 #[test]
 fn lanes_sample_lights_as_one_by_one() {
     let mut random = Independent::from_key(1);
