@@ -25,10 +25,10 @@ pub(crate) fn spectra<'m, 's, F: Lane, D: 'm, T: Textures + 's>(
     at: &impl Fn(usize) -> (&'m D, &'s ShadingContext<'s, T>),
     texture: impl Fn(&D) -> TextureId,
 ) -> F::Spectrum {
-    F::Spectrum::of_lanes(|i| {
-        let (description, site) = at(i);
-        site.spectrum(texture(description))
-    })
+    let site = |i: usize| at(i).1;
+    site(0)
+        .textures
+        .spectra::<F>(|i| texture(at(i).0), |i| site(i).at(), |i| site(i).lambda)
 }
 
 /// The value and the density of directions into which nothing is scattered.

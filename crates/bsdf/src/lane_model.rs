@@ -9,7 +9,8 @@ use crate::models::{
     roughplastic,
 };
 use crate::{Material, ShadingContext};
-use etalon_math::lane::Lane;
+use arrayvec::ArrayVec;
+use etalon_math::lane::{Lane, MOST_LANES};
 use etalon_transport::{LaneBsdfSample, LaneKind, Textures};
 
 macro_rules! lane_models {
@@ -35,10 +36,12 @@ macro_rules! lane_models {
                 at: impl Fn(usize) -> (&'a Material, &'s ShadingContext<'s, T>),
             ) -> Self {
                 $(if kind.0 == LaneIndex::$model as u8 {
-                    return Self::$model($module::Description::in_lanes(|i| match at(i) {
+                    let own = |i| match at(i) {
                         (Material::$model(description), site) => (description, site),
                         _ => unreachable!("all lanes are of one kind"),
-                    }));
+                    };
+                    let all: ArrayVec<_, MOST_LANES> = (0..F::WIDTH).map(own).collect();
+                    return Self::$model($module::Description::in_lanes(|i| all[i]));
                 })*
                 unreachable!("a kind that no material has")
             }

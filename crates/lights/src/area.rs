@@ -146,18 +146,21 @@ impl LightModel for AreaLight {
     ) -> LaneLightSample<F> {
         let point = scene.points_toward(|i| light(i).shape, from, u);
         let (found, direction, target) = connected(&point, from.position);
-        let at = anywhere();
         let shines = wanted & found & point.normal.dot_product(-direction).gt(F::ZERO);
-        let radiance = |i: usize| match shines.lane(i) {
-            true => scene.spectrum(light(i).radiance, &at, wavelengths[i].lambda),
-            false => Vec4::ZERO,
+        let dark = F::Spectrum::uniform(F::ZERO);
+        let radiance = match shines.any() {
+            true => {
+                let lambda = |i: usize| wavelengths[i].lambda;
+                scene.spectra::<F>(|i| light(i).radiance, |_| anywhere(), lambda)
+            }
+            false => dark,
         };
         LaneLightSample {
             found,
             direction,
             target,
             has_target: F::Mask::splat(true),
-            radiance: F::Spectrum::of_lanes(radiance),
+            radiance: F::Spectrum::choose(shines, radiance, dark),
             chance: point.density,
             is_delta: F::Mask::splat(false),
         }

@@ -129,9 +129,9 @@ impl LightModel for ConstantLight {
         direction: F::Vector,
         wavelengths: &[Wavelengths],
     ) -> (F::Spectrum, F) {
-        let radiance = |i: usize| self.background(textures, Vec3::ZERO, &wavelengths[i]);
+        let lambda = |i: usize| wavelengths[i].lambda;
         (
-            F::Spectrum::of_lanes(radiance),
+            textures.spectra::<F>(|_| self.radiance, |_| anywhere(), lambda),
             density_toward(from, direction),
         )
     }
@@ -167,14 +167,18 @@ impl LightModel for ConstantLight {
     ) -> LaneLightSample<F> {
         let direction = direction_toward(from, u);
         let density = density_toward(from, direction);
-        let radiance = |i: usize| match wanted.lane(i) {
-            true => light(i).background(textures, Vec3::ZERO, &wavelengths[i]),
-            false => Vec4::ZERO,
+        let dark = F::Spectrum::uniform(F::ZERO);
+        let radiance = match wanted.any() {
+            true => {
+                let lambda = |i: usize| wavelengths[i].lambda;
+                textures.spectra::<F>(|i| light(i).radiance, |_| anywhere(), lambda)
+            }
+            false => dark,
         };
         LaneLightSample {
             found: density.gt(F::ZERO),
             direction,
-            radiance: F::Spectrum::of_lanes(radiance),
+            radiance,
             chance: density,
             ..LaneLightSample::none()
         }

@@ -1,12 +1,8 @@
 //! The image of an environment map: smooth spectra at texels, interpolated bilinearly.
 
 use etalon_math::lane::{Int, Lane, Select, Spectral};
-use etalon_spectrum::{Regular, RgbCoefficients, illuminants};
+use etalon_spectrum::{RgbCoefficients, illuminants};
 use glam::{UVec2, Vec4};
-use std::sync::LazyLock;
-
-/// D65, scaled so that it looks white with luminance one.
-static WHITE: LazyLock<Regular> = LazyLock::new(illuminants::d65_spectrum);
 
 /// Texels: three coefficients of a spectrum and its factor.
 #[derive(Debug)]
@@ -66,10 +62,8 @@ impl SkyImage {
         place: [F; 2],
         lambda: impl Fn(usize) -> Vec4,
     ) -> F::Spectrum {
-        let [lambda, white] = F::Spectrum::pairs_of_lanes(|i| {
-            let lambda = lambda(i);
-            [lambda, WHITE.eval(lambda)]
-        });
+        let lambda = F::Spectrum::of_lanes(lambda);
+        let white = illuminants::white().eval_lanes::<F>(lambda);
         let Cell { texels, weights } = self.cell(place);
         let mut spectrum = F::Spectrum::uniform(F::ZERO);
         for (texel, weight) in texels.into_iter().zip(weights) {

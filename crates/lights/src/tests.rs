@@ -1,7 +1,7 @@
 //! What the tests of lights share: a small world of textures and rectangles.
 
 use crate::{BoundingSphere, Light, LightDescription, LightSamplerKind};
-use etalon_math::lane::Lane;
+use etalon_math::lane::{Lane, Spectral};
 use etalon_math::{DirectionCone, Frame};
 use etalon_params::{Class, Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value};
 use etalon_sampling::{Independent, Sampler};
@@ -152,6 +152,15 @@ impl Textures for SmallWorld {
             }
             Pattern::Ramp => white() * at.uv.x,
         }
+    }
+
+    fn spectra<F: Lane>(
+        &self,
+        texture: impl Fn(usize) -> TextureId,
+        at: impl Fn(usize) -> TexturePoint,
+        lambda: impl Fn(usize) -> Vec4,
+    ) -> F::Spectrum {
+        F::Spectrum::of_lanes(|i| self.spectrum(texture(i), &at(i), lambda(i)))
     }
 
     fn number(&self, _: TextureId, _: &TexturePoint) -> f32 {

@@ -26,6 +26,17 @@ impl Textures for SceneTables {
     }
 
     #[inline]
+    fn spectra<F: Lane>(
+        &self,
+        texture: impl Fn(usize) -> TextureId,
+        at: impl Fn(usize) -> TexturePoint,
+        lambda: impl Fn(usize) -> Vec4,
+    ) -> F::Spectrum {
+        self.textures
+            .spectra::<F>(texture, &self.geometry, at, lambda)
+    }
+
+    #[inline]
     fn number(&self, texture: TextureId, at: &TexturePoint) -> f32 {
         self.textures.number(texture, &self.geometry, at)
     }

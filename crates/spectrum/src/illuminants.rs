@@ -106,6 +106,13 @@ pub fn d65_spectrum() -> Regular {
     tabulated(D65_RANGE, &D65).expect("the table of D65 is finite and has two values or more")
 }
 
+/// [`d65_spectrum`], made once.
+#[inline]
+pub fn white() -> &'static Regular {
+    static WHITE: std::sync::LazyLock<Regular> = std::sync::LazyLock::new(d65_spectrum);
+    &WHITE
+}
+
 /// CIE F`number` over 380–780 nm in steps of 5 nm, scaled to Y = 1; `None` unless `number` is
 /// 1 to 12.
 pub fn fluorescent(number: usize) -> Option<Regular> {

@@ -4,7 +4,7 @@ use crate::half_nanometres::HalfNanometres;
 use crate::{Blackbody, Irregular, Regular, RgbSpectrum, SpectrumError, colour_space, error};
 use crate::{LAMBDA_MAX, LAMBDA_MIN, illuminants};
 use glam::Vec4;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 /// A function of the wavelength: a reflectance, an emission, an extinction, an index.
 ///
@@ -24,9 +24,6 @@ pub enum Spectrum {
     /// D65 (scaled to Y = 1) times the smooth spectrum of an RGB colour.
     D65(RgbSpectrum),
 }
-
-/// D65 with Y = 1, shared by every spectrum that contains it.
-static D65: LazyLock<Regular> = LazyLock::new(illuminants::d65_spectrum);
 
 impl Spectrum {
     /// The constant `value`.
@@ -101,7 +98,7 @@ impl Spectrum {
             Self::Irregular(table) => table.eval(lambda),
             Self::Blackbody(body) => body.eval(lambda),
             Self::Srgb(colour) => colour.eval(lambda),
-            Self::D65(colour) => D65.eval(lambda) * colour.eval(lambda),
+            Self::D65(colour) => illuminants::white().eval(lambda) * colour.eval(lambda),
         }
     }
 

@@ -2,6 +2,7 @@
 //! ([`Irregular`]).
 
 use crate::{SpectrumError, error};
+use etalon_math::lane::{Int, Lane, Select, Spectral};
 use glam::Vec4;
 
 /// A tabulated spectrum beyond its ends.
@@ -65,6 +66,27 @@ impl Regular {
         let low = Vec4::new(a[0], b[0], c[0], d[0]);
         let high = Vec4::new(a[1], b[1], c[1], d[1]);
         Vec4::select(inside, low + (high - low) * fraction, Vec4::ZERO)
+    }
+
+    /// The same at wavelengths in lanes.
+    #[inline(always)]
+    pub fn eval_lanes<F: Lane>(&self, lambda: F::Spectrum) -> F::Spectrum {
+        let (min, max) = (F::splat(self.min), F::splat(self.max));
+        let last = F::splat((self.values.len() - 2) as f32);
+        let t = (lambda - min) * F::splat(self.rate);
+        let place = t.at_each(|t| t.max(F::ZERO).min(last).floor());
+        let index = place.waves().map(F::to_int);
+        let [a, b, c, d, e, f, g, h] = F::columns(|i| {
+            let pair = |index: F::Int| &self.values[index.lane(i) as usize..][..2];
+            let [a, b, c, d] = index.map(pair);
+            [a[0], b[0], c[0], d[0], a[1], b[1], c[1], d[1]]
+        });
+        let [low, high] = [[a, b, c, d], [e, f, g, h]].map(F::Spectrum::from_waves);
+        let values = (low + (high - low) * (t - place)).waves();
+        let [i, j, k, l] = lambda.waves();
+        let within = |value: F, lambda: F| (lambda.ge(min) & lambda.le(max)).select(value, F::ZERO);
+        let [p, q, r, s] = values;
+        F::Spectrum::from_waves([within(p, i), within(q, j), within(r, k), within(s, l)])
     }
 
     /// The same spectrum times `factor`.

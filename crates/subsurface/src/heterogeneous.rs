@@ -245,6 +245,7 @@ mod tests {
     use crate::Isotropic;
     use crate::tracking;
     use etalon_math::float;
+    use etalon_math::lane::{Lane, Spectral};
     use etalon_sampling::{Independent, Sampler};
 
     /// A density that grows along x, up to `top` of each lane at x = 1.
@@ -258,6 +259,15 @@ mod tests {
                 TextureId(0) => self.top * at.position.x.clamp(0.0, 1.0),
                 _ => Vec4::splat(0.5),
             }
+        }
+
+        fn spectra<F: Lane>(
+            &self,
+            texture: impl Fn(usize) -> TextureId,
+            at: impl Fn(usize) -> TexturePoint,
+            lambda: impl Fn(usize) -> Vec4,
+        ) -> F::Spectrum {
+            F::Spectrum::of_lanes(|i| self.spectrum(texture(i), &at(i), lambda(i)))
         }
 
         fn number(&self, _: TextureId, _: &TexturePoint) -> f32 {

@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 mod arithmetic;
 mod bitmap;
+mod lanes;
 mod mesh_attribute;
 mod procedural;
 mod ranges;

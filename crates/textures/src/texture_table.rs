@@ -1,6 +1,7 @@
 //! All textures of a scene.
 
 use crate::decode::ImageChannel;
+use crate::lane_spectra::LaneTexture;
 use crate::pixels::Image;
 use crate::{Constant, Texture};
 use etalon_params::{Node, Span};
@@ -17,6 +18,8 @@ use std::sync::Arc;
 #[derive(Debug, Default)]
 pub struct TextureTable {
     textures: Vec<Texture>,
+    /// What lanes ask of each first.
+    pub(crate) in_lanes: Vec<LaneTexture>,
     attributes: Vec<(TextureId, Span)>,
     /// Textures already read, by address of the node.
     pub(crate) read: HashMap<(usize, SpectrumKind), TextureId>,
@@ -46,6 +49,7 @@ impl TextureTable {
             }
             near.push(id);
         }
+        self.in_lanes.push(LaneTexture::from(&texture));
         self.textures.push(texture);
         id
     }

@@ -4,16 +4,11 @@ use crate::reader::Use;
 use crate::texture::TextureModel;
 use crate::{Constant, Texture, TextureReader, TextureTable};
 use etalon_params::{Class, Params, Value};
-use etalon_spectrum::Spectrum;
+use etalon_spectrum::{Spectrum, illuminants};
 use etalon_transport::TextureId;
 use etalon_transport::{Shapes, SpectrumKind, TexturePoint};
 use glam::Vec3;
 use glam::Vec4;
-use std::sync::LazyLock;
-
-/// D65, scaled so that it looks white with luminance one.
-static WHITE: LazyLock<etalon_spectrum::Regular> =
-    LazyLock::new(etalon_spectrum::illuminants::d65_spectrum);
 
 /// A texture times D65.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +23,7 @@ impl TimesD65 {
     /// The factor at four wavelengths (nm).
     #[inline]
     pub fn factor(&self, lambda: Vec4) -> Vec4 {
-        WHITE.eval(lambda) * self.scale
+        illuminants::white().eval(lambda) * self.scale
     }
 }
 

@@ -1,6 +1,7 @@
 //! The contract of textures.
 
 use crate::{ShapeId, SurfaceInteraction, TextureId};
+use etalon_math::lane::Lane;
 use glam::{Vec2, Vec3, Vec4};
 
 /// The point for texture look-up.
@@ -59,6 +60,14 @@ impl From<&SurfaceInteraction> for TexturePoint {
 pub trait Textures {
     /// The spectrum at a point, for the four wavelengths `lambda` (nm).
     fn spectrum(&self, texture: TextureId, at: &TexturePoint, lambda: Vec4) -> Vec4;
+
+    /// That of `texture(i)` at `at(i)`, for the wavelengths `lambda(i)`, in lane i.
+    fn spectra<F: Lane>(
+        &self,
+        texture: impl Fn(usize) -> TextureId,
+        at: impl Fn(usize) -> TexturePoint,
+        lambda: impl Fn(usize) -> Vec4,
+    ) -> F::Spectrum;
 
     /// A number at a point (roughness, opacity, blend weight): the luminance of colours.
     fn number(&self, texture: TextureId, at: &TexturePoint) -> f32;

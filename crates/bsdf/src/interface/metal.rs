@@ -2,7 +2,8 @@
 
 use crate::ShadingContext;
 use crate::interface::relative_index::{held_table, number_from_params};
-use etalon_math::lane::{Lane, Spectral};
+use crate::lane_bsdf_at_point::spectra;
+use etalon_math::lane::Lane;
 use etalon_params::{Diagnostic, Params, Property, Value};
 use etalon_spectrum::{Spectrum, conductor_colour, conductors, parse_spd};
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
@@ -65,13 +66,11 @@ impl Metal {
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
         at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
     ) -> [F::Spectrum; 2] {
-        let part = |texture: fn(&Self) -> TextureId| {
-            F::Spectrum::of_lanes(|i| {
-                let (metal, site) = at(i);
-                site.spectrum(texture(metal)) * metal.inverse_exterior
-            })
-        };
-        [part(|metal| metal.eta), part(|metal| metal.k)]
+        let inverse_exterior = F::from_fn(|i| at(i).0.inverse_exterior);
+        [
+            spectra::<F, _, T>(&at, |metal| metal.eta) * inverse_exterior,
+            spectra::<F, _, T>(&at, |metal| metal.k) * inverse_exterior,
+        ]
     }
 }
 

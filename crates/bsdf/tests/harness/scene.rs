@@ -3,6 +3,7 @@
 use crate::{notation, tables};
 use etalon_bsdf::{BsdfAtPoint, Material};
 use etalon_math::Frame;
+use etalon_math::lane::{Lane, Spectral};
 use etalon_params::{Diagnostic, Diagnostics, Node, Params, Severity, SpectrumText, Value};
 use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
@@ -51,6 +52,15 @@ impl Assets for Files {
 impl Textures for Scene {
     fn spectrum(&self, texture: TextureId, _: &TexturePoint, lambda: Vec4) -> Vec4 {
         self.spectra[texture.0 as usize].eval(lambda)
+    }
+
+    fn spectra<F: Lane>(
+        &self,
+        texture: impl Fn(usize) -> TextureId,
+        at: impl Fn(usize) -> TexturePoint,
+        lambda: impl Fn(usize) -> Vec4,
+    ) -> F::Spectrum {
+        F::Spectrum::of_lanes(|i| self.spectrum(texture(i), &at(i), lambda(i)))
     }
 
     fn number(&self, texture: TextureId, _: &TexturePoint) -> f32 {
