@@ -17,7 +17,7 @@ pub mod computed;
 pub mod constant;
 pub mod decode;
 pub mod grid;
-mod lane_spectra;
+mod lane_texture;
 pub mod mesh_attribute;
 pub mod nanovdb;
 pub mod pixels;

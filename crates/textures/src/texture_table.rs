@@ -1,7 +1,7 @@
 //! All textures of a scene.
 
 use crate::decode::ImageChannel;
-use crate::lane_spectra::LaneTexture;
+use crate::lane_texture::LaneTexture;
 use crate::pixels::Image;
 use crate::{Constant, Texture};
 use etalon_params::{Node, Span};

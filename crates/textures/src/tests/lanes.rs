@@ -5,7 +5,7 @@ use crate::pixels::{Image, Pixels, Values};
 use crate::{Bitmap, Constant, Filter, Texture, TextureTable, UvTransform, Wrap};
 use core::f32::consts::PI;
 use etalon_math::lane::{F32x8, F32x16, Lane, Spectral};
-use etalon_spectrum::Spectrum;
+use etalon_spectrum::{Spectrum, SpectrumError};
 use etalon_transport::{SpectrumKind, TextureId, TexturePoint};
 use glam::{UVec2, Vec2, Vec4};
 use std::sync::Arc;
@@ -47,8 +47,8 @@ fn compare<F: Lane>(table: &TextureTable, ids: &[TextureId], shift: usize) {
 fn lanes_have_the_spectra_of_each_texture() {
     let mut table = TextureTable::new();
     let mut add = |texture: Texture| table.add(texture);
-    let constant = |spectrum: Result<Spectrum, _>| {
-        Texture::from(Constant::new(spectrum.ok().expect("a valid spectrum")))
+    let constant = |spectrum: Result<Spectrum, SpectrumError>| {
+        Texture::from(Constant::new(spectrum.expect("a valid spectrum")))
     };
     let colours = [[0.2, 0.9, 0.4], [0.7, 0.1, 0.1]].map(|rgb| {
         let reflected = add(constant(Spectrum::reflectance(rgb)));
