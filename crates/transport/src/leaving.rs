@@ -148,9 +148,10 @@ mod tests {
         SurfaceInteraction {
             position: u.truncate(),
             error: u.truncate().abs() * 1e-7,
-            depth: match random.next_1d() < 0.5 {
-                true => 1e-9 * u.w,
-                false => f32::NAN,
+            depth: match random.next_1d() {
+                ..0.3 => 1e-9 * u.w,
+                ..0.6 => 1e-2 * u.w,
+                _ => f32::NAN,
             },
             normal,
             shading: Frame::from_normal(normal),
@@ -172,8 +173,8 @@ mod tests {
         }
     }
 
-    /// Mutants rejected: rays from another lane's vertex, a departure that is taken as known, the medium of the other side, an end
-    /// on the light itself.
+    /// Mutants rejected: rays from another lane's vertex, a departure ahead of the ray, the medium of another vertex, the end of
+    /// another lane's segment.
     #[test]
     fn rays_in_lanes_are_those_of_each_vertex() {
         let mut random = Independent::from_key(1);
@@ -196,6 +197,7 @@ mod tests {
             let segments = segments.lanes(|i| &vertices[i]);
             for (i, vertex) in vertices.iter().enumerate() {
                 assert_eq!(spawned[i], vertex.spawn(directions[i]));
+                assert!(spawned[i].departure.t <= 0.0);
                 let alone = vertex.shadow_ray(directions[i], Some(targets[i]));
                 assert_eq!(exist.lane(i).then_some(segments[i]), alone);
                 known += u32::from(spawned[i].departure != Departure::NONE);

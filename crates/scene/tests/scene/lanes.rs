@@ -69,8 +69,7 @@ fn compare<F: Lane>(world: &Scene, reach: f32, random: &mut impl Sampler) {
 
 /// Alone and together. Mutants rejected: a near receiver that samples by area, radiance on the back of a lamp, a placed lamp where
 /// its shape was, the light of another lane's choice, a density without the probability of the light, one sky of two that is not
-/// the sum, a texel of the next row, a background without
-/// the probability of the light.
+/// the sum, a background without the probability of the light.
 #[test]
 fn lanes_sample_lights_as_one_by_one() {
     let mut random = Independent::from_key(1);
