@@ -61,7 +61,7 @@ impl Pose {
     /// The world direction (unit) of a direction in the light's space.
     #[inline]
     pub fn to_world(&self, direction: Vec3) -> Vec3 {
-        self.transform.vector(direction).normalize()
+        self.to_world_lanes::<f32>(direction)
     }
 
     /// The same of several directions.
@@ -70,16 +70,16 @@ impl Pose {
         self.transform.vectors::<F>(direction).normalized()
     }
 
-    /// The directions (unit) in the light's space of world directions.
-    #[inline(always)]
-    pub fn to_local_lanes<F: Lane>(&self, direction: F::Vector) -> F::Vector {
-        (self.transform.inverse().vectors::<F>(direction)).normalized()
-    }
-
     /// The direction (unit) in the light's space of a world direction.
     #[inline]
     pub fn to_local(&self, direction: Vec3) -> Vec3 {
-        self.transform.inverse().vector(direction).normalize()
+        self.to_local_lanes::<f32>(direction)
+    }
+
+    /// The same of several directions.
+    #[inline(always)]
+    pub fn to_local_lanes<F: Lane>(&self, direction: F::Vector) -> F::Vector {
+        (self.transform.inverse().vectors::<F>(direction)).normalized()
     }
 }
 
