@@ -81,7 +81,7 @@ macro_rules! inputs {
             #[inline]
             pub fn at<T: etalon_transport::Textures>(
                 &self,
-                site: &$crate::ShadingContext<'_, T>,
+                site: &$crate::TextureSite<'_, T>,
             ) -> $values {
                 $values {
                     $($name: $crate::inputs::kind!($kind at site, self.$name),)*

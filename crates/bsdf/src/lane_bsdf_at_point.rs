@@ -1,6 +1,7 @@
 //! Materials of one kind at several points, in vector lanes.
 
-use crate::{LaneModel, Material, ShadingContext};
+use crate::texture_site::Place;
+use crate::{LaneModel, Material, TextureSite};
 use arrayvec::ArrayVec;
 use etalon_math::lane::{Lane, LaneFrame, MOST_LANES, Mask, Spectral, Vector};
 use etalon_transport::{LaneBsdf, LaneBsdfSample, LaneKind, LaneVertices, TextureId, Textures};
@@ -22,7 +23,7 @@ pub(crate) trait LaneBxdf<F: Lane> {
 /// The spectrum of a texture that each description names, at its point.
 #[inline(always)]
 pub(crate) fn spectra<'m, 's, F: Lane, D: 'm, T: Textures + 's>(
-    at: &impl Fn(usize) -> (&'m D, &'s ShadingContext<'s, T>),
+    at: &impl Fn(usize) -> (&'m D, &'s TextureSite<'s, T>),
     texture: impl Fn(&D) -> TextureId,
 ) -> F::Spectrum {
     let site = |i: usize| at(i).1;
@@ -53,21 +54,22 @@ impl<'a, F: Lane> LaneBsdfAtPoint<'a, F> {
         material: impl Fn(usize) -> &'a Material,
         textures: &T,
         LaneVertices {
-            vertices,
+            surface,
+            texture_point,
             wavelengths,
-        }: LaneVertices<'_>,
+        }: LaneVertices<'_, F>,
         wo: F::Vector,
     ) -> Self {
         let material = F::array(material);
         let material = material.as_ref();
-        let mut frame = LaneFrame::<F>::of_lanes(|i| &vertices[i].shading);
+        let mut frame = surface.shading;
         // The back of a surface with two sides has the mirror image of its frame. A direction in the surface itself is on either
         // side, where nothing is scattered.
         let back = F::Mask::from_fn(|i| material[i].has_two_sides())
             & !frame.n.dot_product(wo).gt(F::ZERO);
         frame.n = F::Vector::choose(back, -frame.n, frame.n);
         let sites: ArrayVec<_, MOST_LANES> = (0..F::WIDTH)
-            .map(|i| ShadingContext::new(textures, vertices[i], wo.at_lane(i), &wavelengths[i]))
+            .map(|i| TextureSite::new(textures, Place::Lane(texture_point, i), &wavelengths[i]))
             .collect();
         let model = LaneModel::new(kind, |i| (material[i].lane_side(back.lane(i)), &sites[i]));
         Self { frame, model }

@@ -8,7 +8,7 @@ use crate::models::{
     conductor, dielectric, diffuse, plastic, principled, roughconductor, roughdielectric,
     roughplastic,
 };
-use crate::{Material, ShadingContext};
+use crate::{Material, TextureSite};
 use arrayvec::ArrayVec;
 use etalon_math::lane::{Lane, MOST_LANES};
 use etalon_transport::{LaneBsdfSample, LaneKind, Textures};
@@ -33,7 +33,7 @@ macro_rules! lane_models {
             #[inline]
             pub(crate) fn new<'s, T: Textures + 's>(
                 kind: LaneKind,
-                at: impl Fn(usize) -> (&'a Material, &'s ShadingContext<'s, T>),
+                at: impl Fn(usize) -> (&'a Material, &'s TextureSite<'s, T>),
             ) -> Self {
                 $(if kind.0 == LaneIndex::$model as u8 {
                     let own = |i| match at(i) {

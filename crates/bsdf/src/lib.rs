@@ -25,7 +25,8 @@ mod material_flags;
 pub mod microfacet;
 pub mod models;
 pub mod quadrature;
-pub mod tilt;
+pub mod texture_site;
+mod tilt;
 
 pub use bsdf_at_point::{BsdfAtPoint, MAX_LOBES};
 pub use bxdf::Bxdf;
@@ -35,3 +36,4 @@ pub use lobe::Lobe;
 pub use lobe_list::{LobeList, ShadingContext};
 pub use material_flags::MaterialFlags;
 pub use models::{AnyBxdf, Material, plugin_names, test_materials};
+pub use texture_site::TextureSite;

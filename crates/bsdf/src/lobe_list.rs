@@ -1,21 +1,21 @@
 //! Flattening of a material with textures into lobes at a point.
 
+use crate::texture_site::{Place, TextureSite};
 use crate::tilt::Tilt;
 use crate::{AnyBxdf, BsdfAtPoint, Bxdf, Lobe, MAX_LOBES};
+use core::ops::Deref;
 use etalon_math::Frame;
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{SurfaceInteraction, TextureId, TexturePoint, Textures};
+use etalon_transport::{SurfaceInteraction, Textures};
 use glam::{Vec3, Vec4};
 
-/// The context in which a material is resolved: point, textures and wavelengths.
+/// The context in which a material is resolved.
 #[derive(Debug)]
 pub struct ShadingContext<'t, T> {
-    /// The textures of the scene.
-    pub textures: &'t T,
+    /// What textures are asked.
+    pub textured: TextureSite<'t, T>,
     /// The point.
     pub vertex: &'t SurfaceInteraction,
-    /// The wavelengths (nm).
-    pub lambda: Vec4,
     /// The known direction (world).
     pub wo: Vec3,
 }
@@ -39,35 +39,19 @@ impl<'t, T: Textures> ShadingContext<'t, T> {
         wavelengths: &Wavelengths,
     ) -> Self {
         Self {
-            textures,
+            textured: TextureSite::new(textures, Place::Vertex(vertex), wavelengths),
             vertex,
-            lambda: wavelengths.lambda,
             wo,
         }
     }
+}
 
-    /// The point, for textures.
-    #[inline]
-    pub fn at(&self) -> TexturePoint {
-        TexturePoint::from(self.vertex)
-    }
+impl<'t, T> Deref for ShadingContext<'t, T> {
+    type Target = TextureSite<'t, T>;
 
-    /// A spectrum here.
     #[inline]
-    pub fn spectrum(&self, texture: TextureId) -> Vec4 {
-        self.textures.spectrum(texture, &self.at(), self.lambda)
-    }
-
-    /// A number here.
-    #[inline]
-    pub fn number(&self, texture: TextureId) -> f32 {
-        self.textures.number(texture, &self.at())
-    }
-
-    /// A number here that is a share of the light: brought into [0, 1], as bitmaps may exceed it.
-    #[inline]
-    pub fn share(&self, texture: TextureId) -> f32 {
-        self.number(texture).clamp(0.0, 1.0)
+    fn deref(&self) -> &Self::Target {
+        &self.textured
     }
 }
 

@@ -1,8 +1,9 @@
 //! The list of cameras a scene can ask for.
 
 use crate::{FilmWindow, Orthographic, Perspective, ThinLens};
+use etalon_math::lane::Lane;
 use etalon_params::{Class, Params, plugins};
-use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraRays, CameraSample, Ray, Shutter};
 use glam::{Vec2, Vec3};
 
 macro_rules! cameras {
@@ -35,6 +36,11 @@ macro_rules! cameras {
             #[inline]
             fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay {
                 match self { $(Self::$variant(camera) => camera.ray(raster, lens, time),)* }
+            }
+
+            #[inline(always)]
+            fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F> {
+                match self { $(Self::$variant(camera) => camera.rays(raster, lens, time),)* }
             }
 
             #[inline]

@@ -11,6 +11,7 @@
 //! (oₓ, o_y) in parts of the film's width and height. Pixels are square.
 
 use crate::FilmWindow;
+use etalon_math::lane::Lane;
 use glam::{DVec2, Vec2};
 
 /// The plane z = 1 of camera space, with the film's pixels on it.
@@ -40,6 +41,15 @@ impl ImagePlane {
     #[inline]
     pub fn point(&self, raster: Vec2) -> Vec2 {
         self.corner - raster * self.pixel
+    }
+
+    /// [`ImagePlane::point`] in lanes.
+    #[inline(always)]
+    pub(crate) fn points<F: Lane>(&self, [x, y]: [F; 2]) -> [F; 2] {
+        [
+            F::splat(self.corner.x) - x * self.pixel,
+            F::splat(self.corner.y) - y * self.pixel,
+        ]
     }
 
     /// The raster position that sees a point of the plane.

@@ -8,10 +8,12 @@
 //! As in Mitsuba, rays start at the image of the near plane and end `far_clip − near_clip`
 //! farther in *world* units, also if the pose scales z.
 
+use crate::pose::LanePose;
 use crate::{ClipRange, FilmWindow, Pose};
 use etalon_math::Animated;
+use etalon_math::lane::{Lane, Vector};
 use etalon_params::Params;
-use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraRays, CameraSample, Ray, Shutter};
 use glam::{Vec2, Vec3};
 
 /// A camera without perspective.
@@ -62,17 +64,25 @@ impl Orthographic {
 
 impl Camera for Orthographic {
     #[inline]
-    fn ray(&self, raster: Vec2, _lens: Vec2, time: f32) -> CameraRay {
-        self.pose.at(time, |pose| {
-            let local = (self.corner - raster * self.pixel).extend(self.near);
-            CameraRay {
-                ray: Ray {
-                    t_max: self.length,
-                    ..Ray::new(pose.position + pose.vector(local), Self::axis(pose).0, time)
-                },
-                weight: 1.0,
-            }
-        })
+    fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay {
+        (self.rays::<f32>(raster.into(), lens.into(), time)).lanes()(0, time)
+    }
+
+    #[inline(always)]
+    fn rays<F: Lane>(&self, [x, y]: [F; 2], _: [F; 2], time: F) -> CameraRays<F> {
+        let pose = LanePose::at(&self.pose, time);
+        let local = [
+            F::splat(self.corner.x) - x * self.pixel,
+            F::splat(self.corner.y) - y * self.pixel,
+            F::splat(self.near),
+        ];
+        let axis = pose.vector([F::ZERO, F::ZERO, F::ONE]);
+        CameraRays {
+            origin: pose.position + pose.vector(local),
+            direction: axis.over(axis.norm()),
+            t_max: F::splat(self.length),
+            weight: F::ONE,
+        }
     }
 
     #[inline]

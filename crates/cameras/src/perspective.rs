@@ -11,11 +11,13 @@
 //! (dx/dω)/r² = r / (z³ · |det M| · pixel area). This is the importance of Veach (1997, section
 //! 8.2) in units of pixels.
 
+use crate::pose::LanePose;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
+use etalon_math::lane::{Lane, Vector};
 use etalon_params::Params;
 use etalon_params::field_of_view::half_width_from_params;
-use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraRays, CameraSample, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A pinhole camera.
@@ -59,18 +61,22 @@ impl Perspective {
 
 impl Camera for Perspective {
     #[inline]
-    fn ray(&self, raster: Vec2, _lens: Vec2, time: f32) -> CameraRay {
-        self.pose.at(time, |pose| {
-            let seen = pose.vector(self.image.point(raster).extend(1.0));
-            let length = seen.length();
-            CameraRay {
-                ray: Ray {
-                    t_max: (self.far - self.near) * length,
-                    ..Ray::new(pose.position + seen * self.near, seen / length, time)
-                },
-                weight: 1.0,
-            }
-        })
+    fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay {
+        (self.rays::<f32>(raster.into(), lens.into(), time)).lanes()(0, time)
+    }
+
+    #[inline(always)]
+    fn rays<F: Lane>(&self, raster: [F; 2], _: [F; 2], time: F) -> CameraRays<F> {
+        let pose = LanePose::at(&self.pose, time);
+        let [x, y] = self.image.points(raster);
+        let seen = pose.vector([x, y, F::ONE]);
+        let length = seen.norm();
+        CameraRays {
+            origin: pose.position + seen * F::splat(self.near),
+            direction: seen.over(length),
+            t_max: F::splat(self.far - self.near) * length,
+            weight: F::ONE,
+        }
     }
 
     #[inline]

@@ -1,6 +1,7 @@
 //! Where a camera stands: the map from camera space to the world, in the form that rays and
 //! connections need.
 
+use etalon_math::lane::{Lane, Vector};
 use etalon_math::{Animated, FromAffine};
 use etalon_params::{DMat4, Params};
 use etalon_transport::Shutter;
@@ -84,6 +85,46 @@ impl Pose {
     #[inline]
     pub fn to_camera(&self, point: Vec3) -> Vec3 {
         self.inverse * (point - self.position)
+    }
+}
+
+/// Poses in lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LanePose<F: Lane> {
+    /// Positions (m, world).
+    pub(crate) position: F::Vector,
+    axes: [F::Vector; 3],
+}
+
+impl<F: Lane> LanePose<F> {
+    /// Where a camera stands at these moments.
+    #[inline(always)]
+    pub(crate) fn at(pose: &Animated<Pose>, time: F) -> Self {
+        if pose.motion().is_none() {
+            let still = pose.start();
+            let Mat3 {
+                x_axis,
+                y_axis,
+                z_axis,
+            } = still.axes;
+            return Self {
+                position: F::Vector::broadcast(still.position),
+                axes: [x_axis, y_axis, z_axis].map(F::Vector::broadcast),
+            };
+        }
+        let poses = F::array(|i| pose.at(time.lane(i), |pose| *pose));
+        let pose = |i: usize| &poses.as_ref()[i];
+        Self {
+            position: F::Vector::of_lanes(|i| pose(i).position),
+            axes: [0, 1, 2].map(|axis| F::Vector::of_lanes(|i| pose(i).axes.col(axis))),
+        }
+    }
+
+    /// [`Pose::vector`].
+    #[inline(always)]
+    pub(crate) fn vector(&self, [x, y, z]: [F; 3]) -> F::Vector {
+        let [a, b, c] = self.axes;
+        a * x + b * y + c * z
     }
 }
 

@@ -16,11 +16,13 @@
 //! ```
 
 use crate::lens::Lens;
+use crate::pose::LanePose;
 use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
+use etalon_math::lane::{Lane, Vector};
 use etalon_params::Params;
-use etalon_sampling::warps::square_to_concentric_disk;
-use etalon_transport::{ApertureHit, Camera, CameraRay, CameraSample, Ray, Shutter};
+use etalon_sampling::warps::{concentric_disk, square_to_concentric_disk};
+use etalon_transport::{ApertureHit, Camera, CameraRay, CameraRays, CameraSample, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 
 /// A camera with an ideal lens.
@@ -92,20 +94,23 @@ impl ThinLens {
 impl Camera for ThinLens {
     #[inline]
     fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay {
-        self.pose.at(time, |pose| {
-            let aperture = self.aperture(lens);
-            let slope = self.image.point(raster) - aperture * self.focus;
-            let seen = pose.vector(slope.extend(1.0));
-            let length = seen.length();
-            let start = pose.vector(aperture.extend(0.0)) + seen * self.near;
-            CameraRay {
-                ray: Ray {
-                    t_max: (self.far - self.near) * length,
-                    ..Ray::new(pose.position + start, seen / length, time)
-                },
-                weight: 1.0,
-            }
-        })
+        (self.rays::<f32>(raster.into(), lens.into(), time)).lanes()(0, time)
+    }
+
+    #[inline(always)]
+    fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F> {
+        let pose = LanePose::at(&self.pose, time);
+        let [a, b] = concentric_disk(lens).map(|coordinate| coordinate * self.aperture_radius);
+        let [x, y] = self.image.points(raster);
+        let seen = pose.vector([x - a * self.focus, y - b * self.focus, F::ONE]);
+        let length = seen.norm();
+        let start = pose.vector([a, b, F::ZERO]) + seen * F::splat(self.near);
+        CameraRays {
+            origin: pose.position + start,
+            direction: seen.over(length),
+            t_max: F::splat(self.far - self.near) * length,
+            weight: F::ONE,
+        }
     }
 
     #[inline]

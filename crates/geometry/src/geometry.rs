@@ -261,10 +261,7 @@ impl Geometry {
     fn crossed(shape: &Shape, ray: &Ray, hit: &Hit) -> Found {
         // Again, as it was found: rounding t would move the point of a small shape far
         // away to anywhere on it.
-        let line = Line {
-            origin: ray.origin.as_dvec3(),
-            direction: ray.direction.as_dvec3(),
-        };
+        let line = Line::of_ray(ray.origin, ray.direction);
         let crossing = shape.crossing_near(hit.primitive, &line, hit.t.into());
         let point = line.at(crossing.t);
         if let Some(mesh) = shape.mesh() {
@@ -294,6 +291,11 @@ impl Geometry {
     /// The box around everything that has an end; empty if there is nothing.
     pub fn bounds(&self) -> Bounds {
         self.world.scope.bounds
+    }
+
+    /// All shapes, those of groups included.
+    pub fn shapes(&self) -> impl Iterator<Item = ShapeId> {
+        (0..self.shapes.len() as u32).map(ShapeId)
     }
 
     /// A shape.

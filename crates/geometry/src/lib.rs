@@ -15,6 +15,7 @@ mod closest_hit;
 pub mod geometry;
 mod group_others;
 mod instance;
+mod lane_surfaces;
 mod local_interaction;
 mod moving_light;
 mod piece;

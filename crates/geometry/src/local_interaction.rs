@@ -3,8 +3,8 @@
 use crate::Placement;
 use etalon_math::{Frame, gamma};
 use etalon_transport::{
-    InstanceId, LightId, MaterialId, MediumInterface, ShapeId, SurfaceInteraction, SurfacePoint,
-    TexturePoint,
+    InstanceId, LightId, MaterialId, MediumInterface, ShadedPoint, ShapeId, SurfaceInteraction,
+    SurfacePoint, TexturePoint,
 };
 use glam::{DVec3, Vec2, Vec3};
 
@@ -110,6 +110,19 @@ impl LocalInteraction {
     #[inline(always)] // As above.
     pub(crate) fn whole(&self) -> SurfacePoint {
         self.point(0, self.uv)
+    }
+
+    /// As much of it as paths need that are scattered together.
+    #[inline(always)] // As above.
+    pub(crate) fn shaded(&self, primitive: u32) -> ShadedPoint {
+        ShadedPoint {
+            position: self.position,
+            error: self.error,
+            depth: self.depth,
+            normal: self.normal,
+            shading: self.shading,
+            primitive,
+        }
     }
 
     /// The vertex at this point.

@@ -43,10 +43,7 @@ impl Piece<'_> {
     /// The parameter of the first crossing ahead of a ray and before `before`.
     #[inline]
     fn first(&self, probe: &TraversalRay, before: f64, order: &impl Order) -> Option<f64> {
-        let line = Line {
-            origin: probe.origin.as_dvec3(),
-            direction: probe.direction.as_dvec3(),
-        };
+        let line = Line::of_ray(probe.origin, probe.direction);
         let mut after = order.earliest(probe);
         if let Some(both) = self.shape.both_crossings(&line) {
             let is_ahead = |t: &f64| *t > after && order.is_ahead(self.primitive, probe, *t);

@@ -245,7 +245,7 @@ impl Shape {
     /// The crossing with a piece nearest to the parameter `t`, known to single precision; one at `t` if there is none.
     pub(crate) fn crossing_near(&self, piece: u32, line: &Line, t: f64) -> Crossing {
         if let Some(both) = self.both_crossings(line) {
-            return Crossing::nearest_of_convex(both, t).unwrap_or(Crossing::new(t, true));
+            return Crossing::nearest_of_convex(both, t);
         }
         let scale = line.origin.abs().max_element() / line.direction.length() + t.abs();
         // Some roundings of single precision, and as much more as it takes: a grazing ray starts far from where

@@ -13,10 +13,7 @@ use etalon_transport::ShapeId;
 /// A ray as a line in double precision.
 #[inline]
 fn line_of(probe: &TraversalRay) -> Line {
-    Line {
-        origin: probe.origin.as_dvec3(),
-        direction: probe.direction.as_dvec3(),
-    }
+    Line::of_ray(probe.origin, probe.direction)
 }
 
 /// Intersects the smooth shapes and instances of the world.

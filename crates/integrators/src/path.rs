@@ -94,13 +94,22 @@ pub(crate) fn follow<'w, W: World, S: Sampler, C: PathHooks, const N: usize>(
 ) {
     while batch.goes_on() {
         batch.intersect(world, config);
-        batch.arrive((world, config), |path, ray, hit| {
-            arrive(world, config, path, (ray, hit))
-        });
-        batch.scatter((world, config), |path, ray, vertex| {
-            scatter(world, config, path, (ray, vertex))
-        });
+        batch.advance(world, config);
         batch.trace_shadows(world);
+    }
+}
+
+/// Brings a path along `ray`, whose nearest surface is `hit`, to its next vertex, and scatters it there.
+#[inline]
+fn advance<'w, W: World, S: Sampler, C: PathHooks>(
+    world: &'w W,
+    config: &PathConfig,
+    path: &mut PathState<'w, W, S, C>,
+    (ray, hit): (&Ray, Option<&Hit>),
+) -> Step {
+    match arrive(world, config, path, (ray, hit)) {
+        ControlFlow::Break(step) => step,
+        ControlFlow::Continue(vertex) => scatter(world, config, path, (ray, &vertex)),
     }
 }
 
@@ -182,10 +191,7 @@ pub(crate) fn follow_part<'w, W: World, S: Sampler, C: PathHooks>(
         path.plan_flight(config, &mut ray);
         let hit = world.surfaces().intersect(&ray);
         let (radiance, scatter_count) = (path.radiance, path.scatter_count);
-        let step = match arrive(world, config, path, (&ray, hit.as_ref())) {
-            ControlFlow::Break(step) => step,
-            ControlFlow::Continue(vertex) => scatter(world, config, path, (&ray, &vertex)),
-        };
+        let step = advance(world, config, path, (&ray, hit.as_ref()));
         if scatter_count < wanted.start {
             path.radiance = radiance;
         }
@@ -202,17 +208,17 @@ pub(crate) fn follow_jobs<W: World, S: Sampler, K: TileSink, C: PathHooks + Copy
     world: &W,
     config: &PathConfig,
     hooks: C,
-    jobs: Drain<'_, SampleJob<S>>,
+    mut jobs: Drain<'_, SampleJob<S>>,
     sink: &mut K,
 ) {
-    let mut jobs = jobs.peekable();
-    while jobs.peek().is_some() {
+    while !jobs.as_slice().is_empty() {
         let mut batch = PathBatch::<_, _, _, BATCH_SIZE>::new();
         let mut places = ArrayVec::<_, BATCH_SIZE>::new();
         for job in jobs.by_ref().take(BATCH_SIZE) {
             places.push((job.site.pixel, job.placement()));
-            batch.push((world, config), &job.site, job.sampler, hooks);
+            batch.push(world, &job.site, job.sampler, hooks);
         }
+        batch.start(world, config);
         follow(world, config, &mut batch);
         for (path, (pixel, placement)) in batch.paths.iter().zip(places) {
             sink.begin_placed(pixel, &placement);

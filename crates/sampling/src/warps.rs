@@ -32,7 +32,9 @@ pub use cap::{
     square_to_uniform_hemisphere, square_to_uniform_sphere, uniform_cone_density,
     uniform_cone_to_square, uniform_hemisphere_to_square, uniform_sphere, uniform_sphere_to_square,
 };
-pub use disk::{CONCENTRIC_DISK_DENSITY, concentric_disk_to_square, square_to_concentric_disk};
+pub use disk::{
+    CONCENTRIC_DISK_DENSITY, concentric_disk, concentric_disk_to_square, square_to_concentric_disk,
+};
 pub use hemisphere::{
     cosine_density, cosine_hemisphere, cosine_hemisphere_density, cosine_hemisphere_to_square,
     square_to_cosine_hemisphere,

@@ -336,6 +336,13 @@ impl SceneMedia {
         self.interfaces.get(shape.0 as usize).copied().flatten()
     }
 
+    /// Whether the media on both sides of a shape may differ.
+    pub(crate) fn bounds_medium(&self, shape: ShapeId) -> bool {
+        let bodies = self.bodies.as_ref();
+        let is_body = bodies.is_some_and(|bodies| bodies.of_shape(shape).is_some());
+        is_body || self.of_shape(shape).is_some()
+    }
+
     /// The media on both sides of a light, if the scene says.
     #[inline]
     pub fn of_light(&self, light: LightId) -> Option<MediumInterface> {

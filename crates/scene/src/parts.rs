@@ -22,7 +22,7 @@ pub struct Parts {
     pub(crate) in_lanes: bool,
     pub(crate) space: Space,
     pub(crate) materials: Vec<Material>,
-    /// The kinds of their points.
+    /// The kinds of the points of each shape.
     pub(crate) lane_kinds: Vec<Option<LaneKind>>,
     pub(crate) lights: LightSet,
     /// Whether any material has a null interaction, so that shadow rays must evaluate materials.

@@ -55,7 +55,7 @@ impl Scene {
             in_lanes,
             has_null: are_null.contains(&true),
             are_null,
-            lane_kinds: materials.iter().map(Material::lane_kind).collect(),
+            lane_kinds: space.lane_kinds(&materials),
             materials,
             lights,
             space,

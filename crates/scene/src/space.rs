@@ -3,7 +3,8 @@
 use crate::media::SceneMedia;
 use crate::rays;
 use crate::scene_tables::SceneTables;
-use etalon_transport::{Hit, Ray, SurfaceInteraction};
+use etalon_bsdf::Material;
+use etalon_transport::{Hit, LaneKind, Ray, SurfaceInteraction};
 
 /// Shapes with their tables, and the media that they bound.
 pub(crate) struct Space {
@@ -20,6 +21,18 @@ impl Space {
             lookup,
             media,
         }
+    }
+
+    /// The kinds of the points of each shape; none where it bounds a medium.
+    pub(crate) fn lane_kinds(&self, materials: &[Material]) -> Vec<Option<LaneKind>> {
+        let kind = |shape| match self.media.bounds_medium(shape) {
+            true => None,
+            false => {
+                let material = self.lookup.geometry.material_of(shape)?;
+                materials[material.0 as usize].lane_kind()
+            }
+        };
+        self.lookup.geometry.shapes().map(kind).collect()
     }
 
     /// The nearest surface along a ray.

@@ -130,8 +130,15 @@ impl Fixed128 {
             return Self::ZERO;
         }
         let magnitude = self.0.unsigned_abs();
-        let count = u128::from(count);
-        let (quotient, rest) = (magnitude / count, magnitude % count);
+        let (divisor, count) = (count, u128::from(count));
+        let (quotient, rest) = match divisor.is_power_of_two() {
+            // Without a division of 128 bits, which is slow.
+            true => (
+                magnitude >> divisor.trailing_zeros(),
+                magnitude & (count - 1),
+            ),
+            false => (magnitude / count, magnitude % count),
+        };
         let up = 2 * rest > count || (2 * rest == count && quotient & 1 == 1);
         let rounded = (quotient + u128::from(up)) as i128;
         Self(with_sign(rounded, self.0 < 0))

@@ -125,7 +125,7 @@ impl TextureTable {
         lambda: impl Fn(usize) -> Vec4,
     ) -> F::Spectrum {
         let one_by_one =
-            || F::Spectrum::of_lanes(|i| self.spectrum(texture(i), shapes, &at(i), lambda(i)));
+            || F::Spectrum::of_lanes(|i| self.spectrum_at(texture(i), shapes, || at(i), lambda(i)));
         let way = self.in_lanes[texture(0).0 as usize].way;
         if F::WIDTH == 1 || way == Way::Other {
             return one_by_one();

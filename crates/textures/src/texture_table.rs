@@ -135,9 +135,21 @@ impl TextureTable {
         at: &TexturePoint,
         lambda: Vec4,
     ) -> Vec4 {
+        self.spectrum_at(id, shapes, || *at, lambda)
+    }
+
+    /// The same at a point that is found when it is needed.
+    #[inline(always)] // As above.
+    pub(crate) fn spectrum_at(
+        &self,
+        id: TextureId,
+        shapes: &impl Shapes,
+        at: impl FnOnce() -> TexturePoint,
+        lambda: Vec4,
+    ) -> Vec4 {
         match self.get(id) {
             Texture::Constant(constant) => constant.spectrum.eval(lambda),
-            texture => self.varying_spectrum(texture, shapes, at, lambda),
+            texture => self.varying_spectrum(texture, shapes, &at(), lambda),
         }
     }
 

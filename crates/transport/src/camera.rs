@@ -1,6 +1,7 @@
 //! The contract of a camera: it makes rays, and it can be connected to.
 
 use crate::Ray;
+use etalon_math::lane::{Lane, Vector};
 use glam::{Vec2, Vec3};
 
 /// A ray into the scene.
@@ -10,6 +11,50 @@ pub struct CameraRay {
     pub ray: Ray,
     /// The factor by which the radiance along it counts (1 for every camera so far).
     pub weight: f32,
+}
+
+/// Rays into the scene, in lanes.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraRays<F: Lane> {
+    /// Origins (m, world), at the near clipping distance.
+    pub origin: F::Vector,
+    /// Unit directions.
+    pub direction: F::Vector,
+    /// Lengths (m), to the far clipping distance.
+    pub t_max: F,
+    /// Factors by which the radiance along them counts.
+    pub weight: F,
+}
+
+impl<F: Lane> CameraRays<F> {
+    /// `ray(i)` in lane i.
+    #[inline(always)]
+    pub fn of_lanes(ray: impl Fn(usize) -> CameraRay) -> Self {
+        let [ox, oy, oz, dx, dy, dz, t_max, weight] = F::columns(|i| {
+            let CameraRay { ray, weight } = ray(i);
+            let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
+            [ox, oy, oz, dx, dy, dz, ray.t_max, weight]
+        });
+        Self {
+            origin: F::Vector::from_xyz(ox, oy, oz),
+            direction: F::Vector::from_xyz(dx, dy, dz),
+            t_max,
+            weight,
+        }
+    }
+
+    /// The ray in any lane, at this moment.
+    #[inline(always)]
+    pub fn lanes(self) -> impl Fn(usize, f32) -> CameraRay {
+        let ([ox, oy, oz], [dx, dy, dz]) = (self.origin.xyz(), self.direction.xyz());
+        let rows = F::rows([ox, oy, oz, dx, dy, dz, self.t_max, self.weight]);
+        move |i, time| {
+            let [ox, oy, oz, dx, dy, dz, t_max, weight] = rows.as_ref()[i];
+            let mut ray = Ray::new(Vec3::new(ox, oy, oz), Vec3::new(dx, dy, dz), time);
+            ray.t_max = t_max;
+            CameraRay { ray, weight }
+        }
+    }
 }
 
 /// A connection of a scene point with the camera.
@@ -47,6 +92,9 @@ pub trait Camera: Sync {
     /// The ray through `raster` (pixels of the whole film), with `lens` in [0, 1)² choosing the
     /// point on the aperture and `time` the moment.
     fn ray(&self, raster: Vec2, lens: Vec2, time: f32) -> CameraRay;
+
+    /// [`Camera::ray`] in lanes.
+    fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F>;
 
     /// Connects a scene point with the aperture point chosen by `lens` at the moment `time`; `None` if the camera
     /// does not see the point (behind it, clipped, or more than `margin` pixels outside of the

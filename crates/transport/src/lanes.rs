@@ -4,7 +4,10 @@
 //! there are lanes are shaded together. Lane i gets the bits that [`World`](crate::World) gives for the same vertex, so it does
 //! not matter which vertices are shaded together, or whether any are.
 
-use crate::{BsdfSample, LightSample, LightSampleContext, SamplePdf, SurfaceInteraction};
+use crate::{
+    BsdfSample, Hit, LaneSurface, LaneVertices, LightSample, LightSampleContext, Ray, SamplePdf,
+    ShapeId,
+};
 use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector, per_lane};
 use etalon_math::{DeltaProbability, Density};
 use etalon_spectrum::Wavelengths;
@@ -67,21 +70,22 @@ impl<F: Lane> LaneReceiver<F> {
         }
     }
 
-    /// The receiver in each lane.
+    /// The receiver in any lane.
     #[inline(always)]
-    pub fn lanes(&self) -> F::Array<LightSampleContext> {
+    pub fn lanes(self) -> impl Fn(usize) -> LightSampleContext {
         let ([px, py, pz], [nx, ny, nz]) = (self.position.xyz(), self.normal.xyz());
         let rows = F::rows([px, py, pz, nx, ny, nz, self.time, F::ZERO]);
-        F::array(|i| {
+        let one_sided = self.one_sided;
+        move |i| {
             let [px, py, pz, nx, ny, nz, time, _] = rows.as_ref()[i];
             LightSampleContext {
                 position: Vec3::new(px, py, pz),
                 normal: Vec3::new(nx, ny, nz),
-                one_sided: self.one_sided.lane(i),
+                one_sided: one_sided.lane(i),
                 time,
                 combined: true,
             }
-        })
+        }
     }
 
     /// The receiver in lane `index`.
@@ -269,15 +273,6 @@ pub trait LaneBsdf<F: Lane> {
     fn sample(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F>;
 }
 
-/// Vertices of one kind, in as many slices of as many items as there are lanes.
-#[derive(Clone, Copy)]
-pub struct LaneVertices<'a> {
-    /// The vertices.
-    pub vertices: &'a [&'a SurfaceInteraction],
-    /// The wavelengths of their paths.
-    pub wavelengths: &'a [Wavelengths],
-}
-
 /// What a scene can do for several vertices at once.
 pub trait LaneShading: Sync {
     /// The scattering models of several vertices, which may refer to tables of the scene.
@@ -285,14 +280,22 @@ pub trait LaneShading: Sync {
     where
         Self: 'a;
 
-    /// The kind of a vertex, where light stays in one medium; `None` if it must be shaded by itself.
-    fn kind(&self, vertex: &SurfaceInteraction) -> Option<LaneKind>;
+    /// The kind of the vertex at a hit, whose surface bounds no medium; `None` if it must be shaded by itself.
+    fn kind(&self, hit: &Hit) -> Option<LaneKind>;
 
-    /// The scattering models of vertices of one kind.
+    /// The surfaces where rays have their hits, as [`Surfaces::vertex`](crate::Surfaces::vertex) says.
+    fn surfaces<'h, F: Lane>(
+        &self,
+        ray: impl Fn(usize) -> &'h Ray,
+        hit: impl Fn(usize) -> &'h Hit,
+    ) -> LaneSurface<F>;
+
+    /// The scattering models of vertices of one kind, of the shapes `shape(i)`.
     fn bsdf<F: Lane>(
         &self,
         kind: LaneKind,
-        vertices: LaneVertices<'_>,
+        shape: impl Fn(usize) -> ShapeId,
+        vertices: LaneVertices<'_, F>,
         wo: F::Vector,
     ) -> Self::Bsdf<'_, F>;
 
@@ -342,11 +345,25 @@ impl<F: Lane> LaneBsdf<F> for NoLanes {
 impl LaneShading for NoLanes {
     type Bsdf<'a, F: Lane> = Self;
 
-    fn kind(&self, _: &SurfaceInteraction) -> Option<LaneKind> {
+    fn kind(&self, _: &Hit) -> Option<LaneKind> {
         match *self {}
     }
 
-    fn bsdf<F: Lane>(&self, _: LaneKind, _: LaneVertices<'_>, _: F::Vector) -> Self {
+    fn surfaces<'h, F: Lane>(
+        &self,
+        _: impl Fn(usize) -> &'h Ray,
+        _: impl Fn(usize) -> &'h Hit,
+    ) -> LaneSurface<F> {
+        match *self {}
+    }
+
+    fn bsdf<F: Lane>(
+        &self,
+        _: LaneKind,
+        _: impl Fn(usize) -> ShapeId,
+        _: LaneVertices<'_, F>,
+        _: F::Vector,
+    ) -> Self {
         match *self {}
     }
 

@@ -1,7 +1,7 @@
 //! Rays that leave points of surfaces, alone or in lanes.
 
 use crate::ray::segments;
-use crate::{Departure, Ray, SurfaceInteraction};
+use crate::{Departure, MediumInterface, Ray, ShapeId};
 use etalon_math::lane::{Lane, Select, Vector};
 use etalon_math::offset::offset_origins;
 use glam::Vec3;
@@ -34,25 +34,20 @@ pub struct LeavingRays<F: Lane> {
     pub cos: F,
 }
 
-impl<F: Lane> Leaving<F> {
-    /// `vertex(i)` in lane i.
-    #[inline(always)]
-    pub fn of_lanes<'v>(vertex: impl Fn(usize) -> &'v SurfaceInteraction) -> Self {
-        let [px, py, pz, ex, ey, ez, depth, nx] = F::columns(|i| {
-            let vertex = vertex(i);
-            let ([px, py, pz], [ex, ey, ez]) =
-                (vertex.position.to_array(), vertex.error.to_array());
-            [px, py, pz, ex, ey, ez, vertex.depth, vertex.normal.x]
-        });
-        let [ny, nz] = [1, 2].map(|k| F::from_fn(|i| vertex(i).normal[k]));
-        Self {
-            position: F::Vector::from_xyz(px, py, pz),
-            error: F::Vector::from_xyz(ex, ey, ez),
-            depth,
-            normal: F::Vector::from_xyz(nx, ny, nz),
-        }
-    }
+/// What a ray takes along from the surface that it leaves.
+#[derive(Clone, Copy, Debug)]
+pub struct LeftSurface {
+    /// The shape.
+    pub shape: ShapeId,
+    /// The primitive within the shape.
+    pub primitive: u32,
+    /// The moment.
+    pub time: f32,
+    /// The media on both sides.
+    pub media: MediumInterface,
+}
 
+impl<F: Lane> Leaving<F> {
     /// Half-lines.
     #[inline(always)]
     pub fn spawn(&self, direction: F::Vector) -> LeavingRays<F> {
@@ -100,37 +95,37 @@ impl<F: Lane> LeavingRays<F> {
         }
     }
 
-    /// The ray in each lane, which leaves `vertex(i)`.
+    /// The ray in any lane, which leaves this surface.
     #[inline(always)]
-    pub fn lanes<'v>(&self, vertex: impl Fn(usize) -> &'v SurfaceInteraction) -> F::Array<Ray> {
+    pub fn lanes(self) -> impl Fn(usize, LeftSurface) -> Ray {
         let ([ox, oy, oz], [dx, dy, dz]) = (self.origin.xyz(), self.direction.xyz());
         let rows = F::rows([ox, oy, oz, dx, dy, dz, self.t_max, self.departure]);
-        F::array(|i| {
+        let cos = self.cos;
+        move |i, left| {
             let [ox, oy, oz, dx, dy, dz, t_max, t] = rows.as_ref()[i];
-            let vertex = vertex(i);
             Ray {
                 origin: Vec3::new(ox, oy, oz),
                 direction: Vec3::new(dx, dy, dz),
                 t_max,
-                time: vertex.time,
+                time: left.time,
                 departure: match t.is_nan() {
                     true => Departure::NONE,
                     false => Departure {
-                        shape: vertex.shape,
-                        primitive: vertex.primitive,
+                        shape: left.shape,
+                        primitive: left.primitive,
                         t,
                     },
                 },
-                medium: vertex.media.toward(self.cos.lane(i)),
+                medium: left.media.toward(cos.lane(i)),
             }
-        })
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{InstanceId, LightId, MaterialId, MediumId, MediumInterface, ShapeId};
+    use crate::{InstanceId, LaneSurface, LightId, MaterialId, MediumId, SurfaceInteraction};
     use etalon_math::Frame;
     use etalon_math::lane::{F32x8, Mask};
     use etalon_sampling::{Independent, Sampler};
@@ -189,19 +184,20 @@ mod tests {
             // Where rounding leaves nothing between them.
             targets[5] = vertices[5].origin_toward(vertices[5].position);
             let directions = targets.map(|target| target.normalize_or(Vec3::X));
-            let leaving = Leaving::<F32x8>::of_lanes(|i| &vertices[i]);
+            let leaving = LaneSurface::<F32x8>::of_lanes(|i| (&vertices[i]).into()).leaving;
             let direction = <F32x8 as Lane>::Vector::of_lanes(|i| directions[i]);
             let target = <F32x8 as Lane>::Vector::of_lanes(|i| targets[i]);
-            let spawned = leaving.spawn(direction).lanes(|i| &vertices[i]);
+            let spawned = leaving.spawn(direction).lanes();
             let (segments, exist) = leaving.toward(target);
-            let segments = segments.lanes(|i| &vertices[i]);
+            let segments = segments.lanes();
             for (i, vertex) in vertices.iter().enumerate() {
-                assert_eq!(spawned[i], vertex.spawn(directions[i]));
-                assert!(spawned[i].departure.t <= 0.0);
+                let spawned = spawned(i, vertex.left());
+                assert_eq!(spawned, vertex.spawn(directions[i]));
+                assert!(spawned.departure.t <= 0.0);
                 let alone = vertex.shadow_ray(directions[i], Some(targets[i]));
-                assert_eq!(exist.lane(i).then_some(segments[i]), alone);
-                known += u32::from(spawned[i].departure != Departure::NONE);
-                inside += u32::from(spawned[i].medium == MediumId(7));
+                assert_eq!(exist.lane(i).then(|| segments(i, vertex.left())), alone);
+                known += u32::from(spawned.departure != Departure::NONE);
+                inside += u32::from(spawned.medium == MediumId(7));
             }
         }
         assert!((200..1400).contains(&known) && (200..1400).contains(&inside));

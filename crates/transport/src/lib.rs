@@ -16,6 +16,7 @@ pub mod diffusion;
 pub mod film;
 pub mod ids;
 pub mod integrator;
+pub mod lane_surface;
 pub mod lanes;
 pub mod leaving;
 pub mod legacy_phong;
@@ -38,16 +39,17 @@ pub use assets::{AssetError, Assets, MeshFormat};
 pub use bsdf::{Bsdf, BsdfSample, TransportMode};
 pub use build::uniformity::{is_varying, refuse_varying};
 pub use build::{Build, SpectrumKind, file};
-pub use camera::{ApertureHit, Camera, CameraRay, CameraSample};
+pub use camera::{ApertureHit, Camera, CameraRay, CameraRays, CameraSample};
 pub use diffusion::{DiffusionProfile, NoProfile};
 pub use film::{Channel, Film, FilmSample, Placing, Sink, TileSink};
 pub use ids::{InstanceId, LightId, MaterialId, MediumId, ShapeId, TextureId};
 pub use integrator::{Integrator, Pass, PixelSample, Preparation, SampleJob};
+pub use lane_surface::{LaneSurface, LaneVertices, ShadedPoint};
 pub use lanes::{
     LaneBsdf, LaneBsdfSample, LaneKind, LaneLightSample, LanePoint, LaneReceiver, LaneShading,
-    LaneVertices, NoLanes,
+    NoLanes,
 };
-pub use leaving::{Leaving, LeavingRays};
+pub use leaving::{Leaving, LeavingRays, LeftSurface};
 pub use legacy_phong::LegacyPhong;
 pub use light::{Emission, EmissionPdf, LightKind, LightSample, LightVariety};
 pub use light_sample_context::LightSampleContext;

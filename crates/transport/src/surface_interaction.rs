@@ -1,6 +1,6 @@
 //! Vertices of paths: points of surfaces, and scattering points in media.
 
-use crate::{InstanceId, Leaving, LightId, MaterialId, MediumInterface, Ray, ShapeId};
+use crate::{InstanceId, Leaving, LeftSurface, LightId, MaterialId, MediumInterface, Ray, ShapeId};
 use etalon_math::{Frame, offset_origin};
 use glam::{Vec2, Vec3};
 
@@ -113,11 +113,21 @@ impl SurfaceInteraction {
         }
     }
 
+    /// What a ray takes along that leaves it.
+    #[inline]
+    pub(crate) fn left(&self) -> LeftSurface {
+        LeftSurface {
+            shape: self.shape,
+            primitive: self.primitive,
+            time: self.time,
+            media: self.media,
+        }
+    }
+
     /// A half-line that leaves this surface.
     #[inline]
     pub fn spawn(&self, direction: Vec3) -> Ray {
-        let [ray] = self.leaving().spawn(direction).lanes(|_| self);
-        ray
+        self.leaving().spawn(direction).lanes()(0, self.left())
     }
 
     /// The remainder of `segment` beyond this surface, which it crosses here; `None` if it ends here.
@@ -147,7 +157,6 @@ impl SurfaceInteraction {
             return Some(self.spawn(direction));
         };
         let (rays, exists) = self.leaving().toward(target);
-        let [ray] = rays.lanes(|_| self);
-        exists.then_some(ray)
+        exists.then(|| rays.lanes()(0, self.left()))
     }
 }

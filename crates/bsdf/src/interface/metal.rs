@@ -1,6 +1,6 @@
 //! Reading the complex refractive index of a conductor: by name, or as `eta` and `k`.
 
-use crate::ShadingContext;
+use crate::TextureSite;
 use crate::interface::relative_index::{held_table, number_from_params};
 use crate::lane_bsdf_at_point::spectra;
 use etalon_math::lane::Lane;
@@ -64,7 +64,7 @@ impl Metal {
     /// η and k at several points relative to the outside, per wavelength.
     #[inline]
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
-        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
     ) -> [F::Spectrum; 2] {
         let inverse_exterior = F::from_fn(|i| at(i).0.inverse_exterior);
         [

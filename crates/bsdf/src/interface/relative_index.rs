@@ -11,7 +11,7 @@ use etalon_spectrum::{
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 use glam::Vec4;
 
-use crate::ShadingContext;
+use crate::TextureSite;
 
 /// The index inside over the index outside.
 #[derive(Clone, Debug)]
@@ -37,7 +37,7 @@ pub enum Index {
 }
 
 impl Index {
-    fn eval<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Vec4 {
+    fn eval<T: Textures>(&self, site: &TextureSite<'_, T>) -> Vec4 {
         match self {
             Self::Formula(index) => index.eval(site.lambda),
             Self::Texture(texture) => site.spectrum(*texture),
@@ -75,7 +75,7 @@ impl RelativeIndex {
     /// The index at a point, per lane. Where a nested spectrum gives none (it is zero beyond its
     /// table) the interface is taken to be absent: 1.
     #[inline]
-    pub fn eval<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Vec4 {
+    pub fn eval<T: Textures>(&self, site: &TextureSite<'_, T>) -> Vec4 {
         match self {
             Self::Constant(eta) => Vec4::splat(*eta),
             Self::Dispersive { interior, exterior } => {

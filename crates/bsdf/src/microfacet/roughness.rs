@@ -1,6 +1,6 @@
 //! Reading the roughness of a microfacet model.
 
-use crate::ShadingContext;
+use crate::TextureSite;
 use crate::inputs::non_negative;
 use crate::microfacet::{Kind, LEAST_ALPHA, Microfacet};
 use etalon_math::lane::Lane;
@@ -52,14 +52,14 @@ impl Roughness {
 
     /// The distribution at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Microfacet {
+    pub fn resolve<T: Textures>(&self, site: &TextureSite<'_, T>) -> Microfacet {
         Self::in_lanes(|_| (self, site))
     }
 
     /// The distributions at several points.
     #[inline]
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
-        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
     ) -> Microfacet<F> {
         let along_x = F::from_fn(|i| {
             let (roughness, site) = at(i);

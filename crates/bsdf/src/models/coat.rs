@@ -16,7 +16,7 @@ use etalon_math::lane::{Lane, Mask, Select, Spectral};
 use etalon_params::Params;
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 
-use crate::ShadingContext;
+use crate::TextureSite;
 use crate::interface::relative_index::RelativeIndex;
 use crate::lane_bsdf_at_point::spectra;
 
@@ -49,7 +49,7 @@ impl Coating {
     /// The bases at several points, for their internal reflectances R.
     #[inline(always)]
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
-        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
         internal: F,
     ) -> Coat<F> {
         let diffuse = spectra::<F, _, T>(&at, |coating| coating.diffuse);

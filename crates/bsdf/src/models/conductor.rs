@@ -10,7 +10,7 @@ use crate::interface::fresnel;
 use crate::interface::metal::Metal;
 use crate::interface::refraction::reflect;
 use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
-use crate::{Bxdf, ShadingContext};
+use crate::{Bxdf, TextureSite};
 use etalon_math::lane::{Lane, Spectral, Vector};
 use etalon_params::Params;
 use etalon_transport::{
@@ -48,14 +48,14 @@ impl Description {
 
     /// The model at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Conductor {
+    pub fn resolve<T: Textures>(&self, site: &TextureSite<'_, T>) -> Conductor {
         Self::in_lanes(|_| (self, site))
     }
 
     /// The models at several points.
     #[inline]
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
-        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
     ) -> Conductor<F> {
         let [eta, k] = Metal::in_lanes::<F, T>(|i| {
             let (description, site) = at(i);

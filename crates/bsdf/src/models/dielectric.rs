@@ -15,7 +15,7 @@ use crate::interface::fresnel;
 use crate::interface::refraction::reflect;
 use crate::interface::relative_index::RelativeIndex;
 use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
-use crate::{Bxdf, ShadingContext};
+use crate::{Bxdf, TextureSite};
 use etalon_math::lane::{Lane, Select, Spectral, Vector, branch};
 use etalon_params::Params;
 use etalon_transport::{
@@ -54,14 +54,14 @@ impl Description {
 
     /// The model at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Dielectric {
+    pub fn resolve<T: Textures>(&self, site: &TextureSite<'_, T>) -> Dielectric {
         Self::in_lanes(|_| (self, site))
     }
 
     /// The models at several points.
     #[inline]
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
-        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
     ) -> Dielectric<F> {
         let eta = |i: usize| {
             let (description, site) = at(i);

@@ -7,7 +7,7 @@
 //! Lambert (1760), *Photometria*. Sampled with density cos θi / π.
 
 use crate::lane_bsdf_at_point::{LaneBxdf, spectra};
-use crate::{Bxdf, ShadingContext};
+use crate::{Bxdf, TextureSite};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector};
 use etalon_params::Params;
@@ -41,14 +41,14 @@ impl Description {
 
     /// The model at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Diffuse {
+    pub fn resolve<T: Textures>(&self, site: &TextureSite<'_, T>) -> Diffuse {
         Self::in_lanes(|_| (self, site))
     }
 
     /// The models at several points.
     #[inline]
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
-        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
     ) -> Diffuse<F> {
         Diffuse {
             reflectance: spectra::<F, _, T>(&at, |description| description.reflectance),

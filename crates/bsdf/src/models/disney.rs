@@ -11,7 +11,7 @@
 //! f       = colour/π · lerp(f_d, f_ss, flatness)  +  sheen colour · F(θd)
 //! ```
 
-use crate::ShadingContext;
+use crate::TextureSite;
 use crate::interface::refraction::half_vector;
 use crate::microfacet::{Kind, Microfacet};
 use core::f32::consts::FRAC_1_PI;
@@ -48,7 +48,7 @@ pub fn microfacet(roughness: f32, anisotropic: f32) -> Microfacet {
 /// A texture's colour here brought to luminance one; white where it has none, or where no tint is `wanted`.
 #[inline]
 pub fn tint<T: Textures>(
-    site: &ShadingContext<'_, T>,
+    site: &TextureSite<'_, T>,
     texture: TextureId,
     colour: Vec4,
     wanted: bool,

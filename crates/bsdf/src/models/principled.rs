@@ -24,7 +24,7 @@ pub use model::Principled;
 
 use crate::inputs::inputs;
 use crate::models::disney::{self, is_used, sampling_rate};
-use crate::{MaterialFlags, ShadingContext};
+use crate::{MaterialFlags, TextureSite};
 use etalon_math::lane::{Lane, Spectral};
 use etalon_params::Params;
 use etalon_transport::{Build, Textures};
@@ -129,7 +129,7 @@ impl Description {
 
     /// The model at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> Principled {
+    pub fn resolve<T: Textures>(&self, site: &TextureSite<'_, T>) -> Principled {
         let at = self.inputs.at(site);
         let tinted = at.spec_tint > 0.0 || at.sheen_tint > 0.0;
         let tint = disney::tint(site, self.inputs.base_color, at.base_color, tinted);
@@ -165,7 +165,7 @@ impl Description {
     /// The models at several points.
     #[inline]
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
-        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
     ) -> Principled<F> {
         let each = F::array(|i| {
             let (description, site) = at(i);

@@ -13,7 +13,7 @@ use crate::interface::refraction::{half_vector, reflect};
 use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
 use crate::microfacet::Microfacet;
 use crate::microfacet::roughness::Roughness;
-use crate::{Bxdf, ShadingContext};
+use crate::{Bxdf, TextureSite};
 use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector};
 use etalon_params::Params;
 use etalon_transport::{
@@ -59,14 +59,14 @@ impl Description {
 
     /// The model at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> RoughConductor {
+    pub fn resolve<T: Textures>(&self, site: &TextureSite<'_, T>) -> RoughConductor {
         Self::in_lanes(|_| (self, site))
     }
 
     /// The models at several points.
     #[inline]
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
-        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
     ) -> RoughConductor<F> {
         let [eta, k] = Metal::in_lanes::<F, T>(|i| {
             let (description, site) = at(i);

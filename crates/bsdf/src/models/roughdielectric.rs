@@ -19,7 +19,7 @@ use crate::interface::relative_index::RelativeIndex;
 use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
 use crate::microfacet::Microfacet;
 use crate::microfacet::roughness::Roughness;
-use crate::{Bxdf, ShadingContext};
+use crate::{Bxdf, TextureSite};
 use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector, branch};
 use etalon_params::Params;
 use etalon_transport::{
@@ -71,14 +71,14 @@ impl Description {
 
     /// The model at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> RoughDielectric {
+    pub fn resolve<T: Textures>(&self, site: &TextureSite<'_, T>) -> RoughDielectric {
         Self::in_lanes(|_| (self, site))
     }
 
     /// The models at several points.
     #[inline]
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
-        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
     ) -> RoughDielectric<F> {
         let eta = |i: usize| {
             let (description, site) = at(i);

@@ -14,7 +14,7 @@ use crate::lane_bsdf_at_point::{LaneBxdf, nothing};
 use crate::microfacet::Microfacet;
 use crate::microfacet::roughness;
 use crate::models::coat::{Coat, Coating};
-use crate::{Bxdf, ShadingContext};
+use crate::{Bxdf, TextureSite};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector, branch};
 use etalon_params::Params;
@@ -53,14 +53,14 @@ impl Description {
 
     /// The model at a point.
     #[inline]
-    pub fn resolve<T: Textures>(&self, site: &ShadingContext<'_, T>) -> RoughPlastic<'_> {
+    pub fn resolve<T: Textures>(&self, site: &TextureSite<'_, T>) -> RoughPlastic<'_> {
         Self::in_lanes(|_| (self, site))
     }
 
     /// The models at several points.
     #[inline]
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
-        at: impl Fn(usize) -> (&'m Self, &'s ShadingContext<'s, T>),
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
     ) -> RoughPlastic<'m, F> {
         let coating = |i: usize| {
             let (description, site) = at(i);

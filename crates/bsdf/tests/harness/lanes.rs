@@ -8,8 +8,8 @@ use etalon_math::lane::{F32x8, F32x16, Lane, Mask, Spectral, Vector};
 use etalon_math::{DeltaProbability, Density, Frame};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    Bsdf, BsdfSample, LaneBsdf, LaneBsdfSample, LaneKind, LaneVertices, SamplePdf,
-    SurfaceInteraction, TransportMode,
+    Bsdf, BsdfSample, LaneBsdf, LaneBsdfSample, LaneKind, LaneSurface, LaneVertices, SamplePdf,
+    SurfaceInteraction, TexturePoint, TransportMode,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -135,10 +135,10 @@ impl<'m> Case<'m> {
 
 /// Compares a group of lanes with each material alone.
 fn compare<F: Lane>(kind: LaneKind, scene: &Scene, cases: &[Case<'_>]) {
-    let vertices: Vec<_> = cases.iter().map(|case| &case.vertex).collect();
     let waves: Vec<_> = cases.iter().map(|case| case.waves).collect();
     let vertices = LaneVertices {
-        vertices: &vertices,
+        surface: &LaneSurface::of_lanes(|i| (&cases[i].vertex).into()),
+        texture_point: &|i| TexturePoint::from(&cases[i].vertex),
         wavelengths: &waves,
     };
     let wo = F::Vector::of_lanes(|i| cases[i].wo);

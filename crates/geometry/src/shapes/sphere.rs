@@ -85,7 +85,22 @@ impl Sphere {
         sphere
     }
 
+    /// The point where a line crosses it near the parameter `t`.
+    #[inline(always)] // So that nothing is computed that the caller does not need.
+    pub(crate) fn surface_near(&self, line: &Line, t: f64) -> LocalInteraction {
+        let crossing = Crossing::nearest_of_convex(self.crossings(line), t);
+        self.surface_toward(line.at(crossing.t))
+    }
+
+    /// The point toward `p` from the centre.
+    #[inline(always)] // As above.
+    fn surface_toward(&self, p: DVec3) -> LocalInteraction {
+        let normal = (p - self.center).try_normalize();
+        self.surface(normal.unwrap_or(self.axes.z_axis))
+    }
+
     /// The point in the direction `normal` (unit) from the centre.
+    #[inline(always)] // As above.
     fn surface(&self, normal: DVec3) -> LocalInteraction {
         let local = self.axes.transpose() * normal;
         let (x, y, z) = (local.x, local.y, local.z);
@@ -176,8 +191,7 @@ impl ShapeModel for Sphere {
     }
 
     fn surface_at(&self, _: u32, p: DVec3, _: &Crossing) -> Option<LocalInteraction> {
-        let normal = (p - self.center).try_normalize();
-        Some(self.surface(normal.unwrap_or(self.axes.z_axis)))
+        Some(self.surface_toward(p))
     }
 
     fn parametric(&self, uv: DVec2) -> Option<LocalInteraction> {

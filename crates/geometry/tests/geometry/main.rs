@@ -11,6 +11,7 @@ mod far_lights;
 mod functions;
 mod grids;
 mod instances;
+mod lane_surfaces;
 mod nets;
 mod normals;
 mod packets;

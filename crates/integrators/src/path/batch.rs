@@ -1,40 +1,48 @@
-//! Paths that are followed in step: all find their next surface, then all arrive there, then all are scattered, then all trace
-//! their shadow rays. So a processor that waits for the memory of one path works on another.
+//! Paths that are followed in step: all find their next surface, then all are scattered there, then all trace their shadow rays. So
+//! a processor that waits for the memory of one path works on another.
 
 use crate::path::hooks::PathHooks;
 use crate::path::state::{PathState, ShadowRay, Step};
+use crate::steps::camera_ray::draw_lens;
 use crate::steps::light_connection::UnoccludedPath;
 use crate::steps::settings::PathConfig;
 use arrayvec::ArrayVec;
-use core::ops::ControlFlow;
+use etalon_math::lane::{F32x8, Lane};
 use etalon_sampling::Sampler;
 use etalon_transport::{
-    Hit, PixelSample, Ray, ShadowQuery, SurfaceInteraction, Surfaces, Transmission, World,
+    Camera, CameraRay, Hit, Media, PixelSample, Ray, Sensor, ShadowQuery, Surfaces, Transmission,
+    World,
 };
+use glam::Vec2;
 
-/// A path that has reached a surface.
-#[derive(Debug)]
-pub(super) struct Arrived {
-    /// The index of its ray, and in the list of paths not yet ended.
-    pub(super) segment: usize,
-    pub(super) vertex: SurfaceInteraction,
+/// The lanes in use.
+pub(super) type Lanes = F32x8;
+
+/// Where, through which point of the lens, and when a camera looks.
+#[derive(Clone, Copy, Debug)]
+struct View {
+    raster: Vec2,
+    lens: Vec2,
+    time: f32,
 }
 
 /// Up to `N` paths. Those not yet ended are listed densely, so that no stage visits the others.
 pub(crate) struct PathBatch<'w, W: World + 'w, S, C, const N: usize> {
     pub(crate) paths: ArrayVec<PathState<'w, W, S, C>, N>,
+    /// How the camera looks along each.
+    views: ArrayVec<View, N>,
     /// Indices in `paths` of those not yet ended.
     pub(super) active: ArrayVec<usize, N>,
     /// The next ray of each of these.
     pub(super) rays: ArrayVec<Ray, N>,
     /// The nearest surface along it.
-    hits: [Option<Hit>; N],
+    pub(super) hits: [Option<Hit>; N],
     /// Indices in `active` of those that see lights at infinity.
     pub(super) escaped: ArrayVec<usize, N>,
-    /// Those that have reached a surface.
-    pub(super) arrived: ArrayVec<Arrived, N>,
-    /// Indices in `paths` of those that go on, and their next rays.
-    pub(super) continued: ArrayVec<(usize, Ray), N>,
+    /// Indices in `paths` of those that go on.
+    pub(super) continued: ArrayVec<usize, N>,
+    /// Their next rays.
+    pub(super) next_rays: ArrayVec<Ray, N>,
     /// Indices in `paths` of those with a shadow ray, and their light samples.
     pub(super) waiting: ArrayVec<(usize, UnoccludedPath), N>,
     /// The shadow rays.
@@ -48,12 +56,13 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
     pub(crate) fn new() -> Self {
         Self {
             paths: ArrayVec::new(),
+            views: ArrayVec::new(),
             active: ArrayVec::new(),
             rays: ArrayVec::new(),
             hits: [None; N],
             escaped: ArrayVec::new(),
-            arrived: ArrayVec::new(),
             continued: ArrayVec::new(),
+            next_rays: ArrayVec::new(),
             waiting: ArrayVec::new(),
             shadow_rays: ArrayVec::new(),
             transmissions: [None; N],
@@ -62,19 +71,40 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
 
     /// Adds the path of a sample.
     #[inline]
-    pub(crate) fn push(
-        &mut self,
-        (world, config): (&'w W, &PathConfig),
-        site: &PixelSample,
-        sampler: S,
-        hooks: C,
-    ) {
-        let (path, ray) = PathState::start(world, site, sampler, hooks);
-        if let Some(ray) = config.first_segment(ray) {
-            self.active.push(self.paths.len());
-            self.rays.push(ray);
+    pub(crate) fn push(&mut self, world: &'w W, site: &PixelSample, mut sampler: S, hooks: C) {
+        let (lens, u, time) = draw_lens(&mut sampler);
+        let wavelengths = world.sensor().wavelengths(u);
+        (self.paths).push(PathState::new(world, wavelengths, sampler, hooks));
+        self.views.push(View {
+            raster: site.raster,
+            lens,
+            time,
+        });
+    }
+
+    /// Sends the paths that were added into the scene, if a path may have a segment at all.
+    #[inline]
+    pub(crate) fn start(&mut self, world: &W, config: &PathConfig) {
+        if config.limits.max_depth == 0 {
+            return;
         }
-        self.paths.push(path);
+        let medium = world.media().around_camera();
+        let mut index = 0;
+        for views in self.views.chunks(Lanes::WIDTH) {
+            let [x, y, a, b, time, ..] = Lanes::columns(|i| {
+                let View { raster, lens, time } = views[i.min(views.len() - 1)];
+                [raster.x, raster.y, lens.x, lens.y, time, 0.0, 0.0, 0.0]
+            });
+            let rays = world.camera().rays::<Lanes>([x, y], [a, b], time).lanes();
+            for (i, view) in views.iter().enumerate() {
+                let CameraRay { mut ray, weight } = rays(i, view.time);
+                ray.medium = medium;
+                self.paths[index].weight = weight;
+                self.active.push(index);
+                self.rays.push(ray);
+                index += 1;
+            }
+        }
     }
 
     /// Whether any path has not ended.
@@ -93,61 +123,33 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         world.surfaces().intersect_batch(&self.rays, hits);
     }
 
-    /// Brings every path to its next vertex: to a surface, or past a point where it does not stop at one.
+    /// Brings every path to its next vertex, and scatters it there.
     #[inline]
-    pub(crate) fn arrive(
-        &mut self,
-        (world, config): (&'w W, &PathConfig),
-        mut arrive: impl FnMut(
-            &mut PathState<'w, W, S, C>,
-            &Ray,
-            Option<&Hit>,
-        ) -> ControlFlow<Step, SurfaceInteraction>,
-    ) {
-        let lanes = self.background_in_lanes(world);
-        for segment in 0..self.active.len() {
-            let (path, ray) = (self.active[segment], &self.rays[segment]);
-            if lanes.is_some() && self.hits[segment].is_none() && !ray.medium.is_some() {
-                if config.limits.sees_background(self.paths[path].alpha()) {
-                    self.escaped.push(segment);
-                }
-                continue;
-            }
-            match arrive(&mut self.paths[path], ray, self.hits[segment].as_ref()) {
-                ControlFlow::Continue(vertex) => self.arrived.push(Arrived { segment, vertex }),
-                ControlFlow::Break(step) => self.take(path, step),
-            }
+    pub(crate) fn advance(&mut self, world: &'w W, config: &PathConfig) {
+        match world.lanes().filter(|_| C::PLAIN) {
+            Some(lanes) => self.advance_by_kind((world, lanes, config)),
+            None => (0..self.active.len()).for_each(|segment| {
+                self.advance_alone((world, config), segment);
+            }),
         }
-        if let Some(lanes) = lanes {
-            self.see_background(lanes, config);
-        }
+        self.active.clone_from(&self.continued);
+        self.continued.clear();
+        self.rays.clone_from(&self.next_rays);
+        self.next_rays.clear();
     }
 
-    /// Scatters every path that has reached a surface.
+    /// The same of one path.
     #[inline]
-    pub(crate) fn scatter(
-        &mut self,
-        (world, config): (&'w W, &PathConfig),
-        mut scatter: impl FnMut(&mut PathState<'w, W, S, C>, &Ray, &SurfaceInteraction) -> Step,
-    ) {
-        self.scatter_by_kind((world, config), |batch, place| {
-            let Arrived { segment, vertex } = &batch.arrived[place];
-            let (path, ray) = (batch.active[*segment], &batch.rays[*segment]);
-            let step = scatter(&mut batch.paths[path], ray, vertex);
-            batch.take(path, step);
-        });
-        self.arrived.clear();
-        self.active.clear();
-        self.rays.clear();
-        for (path, ray) in self.continued.drain(..) {
-            self.active.push(path);
-            self.rays.push(ray);
-        }
+    pub(super) fn advance_alone(&mut self, (world, config): (&'w W, &PathConfig), segment: usize) {
+        let (path, ray) = (self.active[segment], &self.rays[segment]);
+        let hit = self.hits[segment].as_ref();
+        let step = super::advance(world, config, &mut self.paths[path], (ray, hit));
+        self.take(path, step);
     }
 
     /// Queues the rays of a step of a path.
     #[inline]
-    fn take(&mut self, path: usize, step: Step) {
+    pub(super) fn take(&mut self, path: usize, step: Step) {
         if let Some(ShadowRay {
             ray,
             crossings,
@@ -162,7 +164,8 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             });
         }
         if let Some(next) = step.ray {
-            self.continued.push((path, next));
+            self.continued.push(path);
+            self.next_rays.push(next);
         }
     }
 

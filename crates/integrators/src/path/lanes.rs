@@ -3,7 +3,7 @@
 //! Lane i gets the bits that its path would get alone (see [`etalon_transport::LaneShading`]), so that it does not matter which
 //! paths meet. Few that are left over, and those at surfaces without a kind, are scattered one by one.
 
-use crate::path::batch::{Arrived, PathBatch};
+use crate::path::batch::{Lanes, PathBatch};
 use crate::path::hooks::PathHooks;
 use crate::steps::candidates::{Candidates, TURN};
 use crate::steps::dimensions::BounceSamples;
@@ -12,19 +12,30 @@ use crate::steps::light_mis::LightMis;
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::PathConfig;
 use arrayvec::ArrayVec;
+use core::ops::ControlFlow;
 use etalon_math::float::ONE_MINUS_EPSILON;
-use etalon_math::lane::{F32x8, Lane, Mask, Select, Spectral, Vector};
+use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector};
 use etalon_sampling::Sampler;
+use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, Leaving, LeavingRays, Lights,
-    MediumInterface, ShadowQuery, World,
+    LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, LeavingRays, LeftSurface, Lights,
+    MediumInterface, ShadowQuery, Surfaces, TexturePoint, World,
 };
-
-/// The lanes in use.
-type Lanes = F32x8;
 
 /// So many paths take as long in lanes as one by one.
 const ENOUGH: usize = 4;
+
+/// Where a path has arrived.
+enum Arrived {
+    /// At a surface of a kind; what is emitted there is added.
+    OfKind(LaneKind),
+    /// At lights at infinity.
+    Escaped,
+    /// Where it goes on by itself.
+    Alone,
+    /// Where it needs nothing more.
+    Ended,
+}
 
 /// Connections of several vertices to lights, as [`crate::steps::light_connection::LightConnection`] describes them.
 struct LaneConnection<F: Lane> {
@@ -59,7 +70,7 @@ impl<F: Lane> LaneConnection<F> {
 struct LaneVertex<'v, 'a, F: Lane, L: LaneShading + 'a> {
     lanes: &'a L,
     bsdf: &'v L::Bsdf<'a, F>,
-    vertices: LaneVertices<'v>,
+    wavelengths: &'v [Wavelengths],
     wo: F::Vector,
     from: LaneReceiver<F>,
     /// The paths that led there.
@@ -70,8 +81,7 @@ impl<F: Lane, L: LaneShading> LaneVertex<'_, '_, F, L> {
     /// The connection to a light sample.
     #[inline(always)]
     fn connect(&self, wanted: F::Mask, u_light: F, u: [F; 2]) -> LaneConnection<F> {
-        let waves = self.vertices.wavelengths;
-        let light = (self.lanes).sample_light(&self.from, waves, wanted, u_light, u);
+        let light = (self.lanes).sample_light(&self.from, self.wavelengths, wanted, u_light, u);
         let (value, density) = self.bsdf.eval_and_density(self.wo, light.direction);
         let contribution = value * light.radiance;
         LaneConnection {
@@ -156,15 +166,87 @@ impl<F: Lane, L: LaneShading> LaneVertex<'_, '_, F, L> {
 }
 
 impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S, C, N> {
-    /// What sees lights at infinity for several paths at once, if there are any.
+    /// Brings every path to its next vertex, and scatters it there: paths at surfaces of one kind as many together as there are lanes,
+    /// every other one alone.
     #[inline]
-    pub(super) fn background_in_lanes(&self, world: &'w W) -> Option<&'w W::Lanes> {
-        (world.lanes()).filter(|_| C::PLAIN && world.lights().has_background())
+    pub(super) fn advance_by_kind(
+        &mut self,
+        (world, lanes, config): (&'w W, &'w W::Lanes, &PathConfig),
+    ) {
+        let mut groups: [ArrayVec<usize, { Lanes::WIDTH }>; LaneKind::COUNT] =
+            core::array::from_fn(|_| ArrayVec::new());
+        for segment in 0..self.active.len() {
+            match self.arrive((world, lanes, config), segment) {
+                Arrived::OfKind(kind) => {
+                    let group = &mut groups[usize::from(kind.0)];
+                    group.push(segment);
+                    if group.is_full() {
+                        self.scatter_together::<Lanes>((world, lanes, config), kind, group);
+                        group.clear();
+                    }
+                }
+                Arrived::Escaped => self.escaped.push(segment),
+                Arrived::Alone => self.advance_alone((world, config), segment),
+                Arrived::Ended => {}
+            }
+        }
+        for (kind, group) in groups.iter().enumerate() {
+            match group.len() < ENOUGH {
+                true => {
+                    (group.iter()).for_each(|segment| self.scatter_alone((world, config), *segment))
+                }
+                false => {
+                    let kind = LaneKind(kind as u8);
+                    self.scatter_together::<Lanes>((world, lanes, config), kind, group);
+                }
+            }
+        }
+        self.see_background(lanes, config);
+    }
+
+    /// Brings a path to a surface of some kind, where it can be scattered together with others.
+    #[inline]
+    fn arrive(
+        &mut self,
+        (world, lanes, config): (&'w W, &'w W::Lanes, &PathConfig),
+        segment: usize,
+    ) -> Arrived {
+        let (index, ray) = (self.active[segment], &self.rays[segment]);
+        let path = &mut self.paths[index];
+        let Some(hit) = &self.hits[segment] else {
+            return match world.lights().has_background() {
+                _ if ray.medium.is_some() => Arrived::Alone,
+                true if config.limits.sees_background(path.alpha) => Arrived::Escaped,
+                _ => Arrived::Ended,
+            };
+        };
+        let Some(kind) = lanes.kind(hit).filter(|_| !path.is_last(config)) else {
+            return Arrived::Alone;
+        };
+        if ray.medium.is_some() || world.lights().is_emitter(hit) {
+            let arrived = super::arrive(world, config, path, (ray, Some(hit)));
+            if let ControlFlow::Break(step) = arrived {
+                self.take(index, step);
+                return Arrived::Ended;
+            }
+        }
+        Arrived::OfKind(kind)
+    }
+
+    /// Scatters one path at the surface that it has reached.
+    fn scatter_alone(&mut self, (world, config): (&'w W, &PathConfig), segment: usize) {
+        let (path, ray) = (self.active[segment], &self.rays[segment]);
+        let hit = self.hits[segment]
+            .as_ref()
+            .expect("it has reached a surface");
+        let vertex = world.surfaces().vertex(ray, hit);
+        let step = super::scatter(world, config, &mut self.paths[path], (ray, &vertex));
+        self.take(path, step);
     }
 
     /// Adds what the paths that have escaped see.
     #[inline(never)]
-    pub(super) fn see_background(&mut self, lanes: &W::Lanes, config: &PathConfig) {
+    fn see_background(&mut self, lanes: &W::Lanes, config: &PathConfig) {
         for begin in (0..self.escaped.len()).step_by(Lanes::WIDTH) {
             let group = self.escaped[begin..].iter().take(Lanes::WIDTH).copied();
             let group: ArrayVec<usize, { Lanes::WIDTH }> = group.collect();
@@ -204,67 +286,27 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         }
     }
 
-    /// Scatters paths at surfaces that have a kind, as many together as there are lanes, and calls `alone` for every other one.
-    #[inline]
-    pub(super) fn scatter_by_kind(
-        &mut self,
-        (world, config): (&'w W, &PathConfig),
-        mut alone: impl FnMut(&mut Self, usize),
-    ) {
-        let Some(lanes) = world.lanes().filter(|_| C::PLAIN) else {
-            (0..self.arrived.len()).for_each(|place| alone(self, place));
-            return;
-        };
-        let mut groups: [ArrayVec<usize, { Lanes::WIDTH }>; LaneKind::COUNT] =
-            core::array::from_fn(|_| ArrayVec::new());
-        for place in 0..self.arrived.len() {
-            let Arrived { segment, vertex } = &self.arrived[place];
-            let last = self.paths[self.active[*segment]].is_last(config);
-            let medium = self.rays[*segment].medium;
-            let stays = vertex.media == MediumInterface::within(medium);
-            match lanes.kind(vertex).filter(|_| stays && !last) {
-                None => alone(self, place),
-                Some(kind) => {
-                    let group = &mut groups[usize::from(kind.0)];
-                    group.push(place);
-                    if group.is_full() {
-                        self.scatter_together::<Lanes>((world, lanes, config), kind, group);
-                        group.clear();
-                    }
-                }
-            }
-        }
-        for (kind, group) in groups.iter().enumerate() {
-            match group.len() < ENOUGH {
-                true => (group.iter()).for_each(|place| alone(self, *place)),
-                false => {
-                    let kind = LaneKind(kind as u8);
-                    self.scatter_together::<Lanes>((world, lanes, config), kind, group);
-                }
-            }
-        }
-    }
-
-    /// Scatters up to as many paths as there are lanes, at surfaces of one kind: the ones at these places of `arrived`. What more
-    /// lanes there are repeat the last, and nothing becomes of them.
+    /// Scatters up to as many paths as there are lanes, at the ends of these segments, on surfaces of one kind. What more lanes there
+    /// are repeat the last, and nothing becomes of them.
     #[inline(never)]
     fn scatter_together<F: Lane>(
         &mut self,
         (world, lanes, config): (&'w W, &'w W::Lanes, &PathConfig),
         kind: LaneKind,
-        places: &[usize],
+        segments: &[usize],
     ) {
         let Self {
             paths,
             active,
             rays,
-            arrived,
+            hits,
             ..
         } = self;
-        let count = places.len();
-        let arrived = F::array(|i| &arrived[places[i.min(count - 1)]]);
-        let arrived = arrived.as_ref();
-        let index = F::array(|i| active[arrived[i].segment]);
+        let count = segments.len();
+        let segment = |i: usize| segments[i.min(count - 1)];
+        let ray = |i: usize| &rays[segment(i)];
+        let hit = |i: usize| hits[segment(i)].as_ref().expect("it has reached a surface");
+        let index = F::array(|i| active[segment(i)]);
         let index = index.as_ref();
         let mut event = BounceSamples::default();
         let random = BounceSamples::of_lanes(|i| {
@@ -274,28 +316,35 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             event
         });
         let path = |i: usize| &paths[index[i]];
-        let vertex = |i: usize| &arrived[i].vertex;
-        let vertices = F::array(vertex);
+        let surface = lanes.surfaces::<F>(ray, hit);
+        let leaving = surface.leaving;
+        let left = |i: usize| LeftSurface {
+            shape: hit(i).shape,
+            primitive: surface.primitives[i],
+            time: ray(i).time,
+            media: MediumInterface::within(ray(i).medium),
+        };
         let wavelengths = F::array(|i| path(i).wavelengths);
         let wavelengths = wavelengths.as_ref();
+        let texture_point = |i| TexturePoint::from(&world.surfaces().vertex(ray(i), hit(i)));
         let vertices = LaneVertices {
-            vertices: vertices.as_ref(),
+            surface: &surface,
+            texture_point: &texture_point,
             wavelengths,
         };
-        let wo = -F::Vector::of_lanes(|i| rays[arrived[i].segment].direction);
-        let bsdf = lanes.bsdf::<F>(kind, vertices, wo);
-        let leaving = Leaving::<F>::of_lanes(vertex);
+        let wo = -F::Vector::of_lanes(|i| ray(i).direction);
+        let bsdf = lanes.bsdf::<F>(kind, |i| hit(i).shape, vertices, wo);
         let hemisphere = bsdf.hemisphere(wo);
         let before = PathThroughput::<F>::of_lanes(|i| &path(i).throughput);
         let at = LaneVertex {
             lanes,
-            vertices,
+            wavelengths,
             wo,
             from: LaneReceiver {
                 position: leaving.position,
-                normal: hemisphere.unwrap_or_else(|| F::Vector::of_lanes(|i| vertex(i).shading.n)),
+                normal: hemisphere.unwrap_or(surface.shading.n),
                 one_sided: F::Mask::splat(hemisphere.is_some()),
-                time: F::from_fn(|i| vertex(i).time),
+                time: F::from_fn(|i| ray(i).time),
             },
             before,
             bsdf: &bsdf,
@@ -329,11 +378,11 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
                     (rays, connection.found & (exist | !has_target))
                 }
             };
-            let (shadow_rays, unoccluded) = (shadow_rays.lanes(vertex), connection.path.lanes());
+            let (shadow_ray, unoccluded) = (shadow_rays.lanes(), connection.path.lanes());
             for i in (0..count).filter(|i| found.lane(*i)) {
-                self.waiting.push((index[i], unoccluded.as_ref()[i]));
+                self.waiting.push((index[i], unoccluded(i)));
                 self.shadow_rays.push(ShadowQuery {
-                    ray: shadow_rays.as_ref()[i],
+                    ray: shadow_ray(i, left(i)),
                     wavelengths: wavelengths[i],
                     crossings: config.null_crossings(paths[index[i]].depth),
                 });
@@ -351,8 +400,8 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         let survives = !played | random.roulette.lt(survival);
         let goes_on = sample.found & survives & !after.beta.is_zero();
 
-        let (after, next) = (after.lanes(), leaving.spawn(sample.wi).lanes(vertex));
-        let light_mis = LightMis::lanes(&before, &at.from, sample.chance.hero(), sample.is_delta);
+        let (after, next) = (after.lanes(), leaving.spawn(sample.wi).lanes());
+        let light_mis = LightMis::lanes(before, at.from, sample.chance.hero(), sample.is_delta);
         for i in 0..count {
             let path = &mut paths[index[i]];
             path.alpha = 1.0;
@@ -361,12 +410,13 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             }
             path.scatter_count += 1;
             path.scattered |= !sample.is_delta.lane(i);
-            path.light_mis = light_mis.as_ref()[i];
-            path.throughput = after.as_ref()[i];
+            path.light_mis = light_mis(i);
+            path.throughput = after(i);
             path.eta = eta.lane(i);
             path.depth += 1;
             if goes_on.lane(i) {
-                self.continued.push((index[i], next.as_ref()[i]));
+                self.continued.push(index[i]);
+                self.next_rays.push(next(i, left(i)));
             }
         }
     }

@@ -22,7 +22,7 @@ pub(crate) struct PathState<'w, W: World + 'w, S, C = ()> {
     pub(crate) sampler: S,
     pub(crate) wavelengths: Wavelengths,
     /// Factor on its radiance: the importance of the camera ray.
-    weight: f32,
+    pub(crate) weight: f32,
     pub(crate) throughput: PathThroughput,
     pub(crate) light_mis: LightMis,
     /// The product of the indices of refraction passed.
@@ -115,13 +115,22 @@ impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
     #[inline]
     pub(crate) fn start(world: &'w W, site: &PixelSample, mut sampler: S, hooks: C) -> (Self, Ray) {
         let (wavelengths, ray, weight) = camera_ray(world, site, &mut sampler);
-        let medium = (ray.medium.is_some())
-            .then(|| world.media().enter(ray.medium, None, &wavelengths))
+        let mut path = Self::new(world, wavelengths, sampler, hooks);
+        path.weight = weight;
+        (path, ray)
+    }
+
+    /// A path before its first segment, which counts with weight one.
+    #[inline]
+    pub(crate) fn new(world: &'w W, wavelengths: Wavelengths, sampler: S, hooks: C) -> Self {
+        let medium = world.media().around_camera();
+        let medium = (medium.is_some())
+            .then(|| world.media().enter(medium, None, &wavelengths))
             .flatten();
-        let path = Self {
+        Self {
             sampler,
             wavelengths,
-            weight,
+            weight: 1.0,
             throughput: PathThroughput::START,
             light_mis: LightMis::NONE,
             eta: 1.0,
@@ -134,8 +143,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
             radiance: Vec4::ZERO,
             alpha: 0.0,
             hooks,
-        };
-        (path, ray)
+        }
     }
 
     /// The hooks, when the path has ended.

@@ -2,12 +2,13 @@
 
 use super::log::{SharedLog, chance, lanes, vector, walk};
 use super::recording_bsdf::RecordingBsdf;
+use etalon_math::lane::Lane;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    ApertureHit, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, LegacyPhong, LightId,
-    LightSample, LightSampleContext, LightVariety, Lights, MediumId, NoLanes, Ray, Sensor,
-    ShadowQuery, SurfaceInteraction, Surfaces, Transmission, World,
+    ApertureHit, Camera, CameraRay, CameraRays, CameraSample, Emission, EmissionPdf, Hit,
+    LegacyPhong, LightId, LightSample, LightSampleContext, LightVariety, Lights, MediumId, NoLanes,
+    Ray, Sensor, ShadowQuery, SurfaceInteraction, Surfaces, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 
@@ -68,6 +69,11 @@ impl<C: Camera> Camera for Recording<'_, C> {
             vector(ray.direction)
         ));
         start
+    }
+
+    fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F> {
+        let both = |[x, y]: [F; 2], i| Vec2::new(x.lane(i), y.lane(i));
+        CameraRays::of_lanes(|i| self.ray(both(raster, i), both(lens, i), time.lane(i)))
     }
 
     fn connect(&self, point: Vec3, lens: Vec2, time: f32, margin: f32) -> Option<CameraSample> {

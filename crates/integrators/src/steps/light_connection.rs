@@ -69,18 +69,18 @@ impl<F: Lane> UnoccludedPath<F> {
         }
     }
 
-    /// The path in each lane.
+    /// The path in any lane.
     #[inline(always)]
-    pub(crate) fn lanes(&self) -> F::Array<UnoccludedPath> {
+    pub(crate) fn lanes(self) -> impl Fn(usize) -> UnoccludedPath {
         let throughput = self.throughput.lanes();
         let by_scattering = F::Spectrum::pairs([self.pdf_by_scattering; 2]);
-        F::array(|i| {
-            let [pdf_by_scattering, _] = by_scattering.as_ref()[i];
+        move |i| {
+            let [pdf_by_scattering, _] = by_scattering(i);
             UnoccludedPath {
-                throughput: throughput.as_ref()[i],
+                throughput: throughput(i),
                 pdf_by_scattering,
             }
-        })
+        }
     }
 }
 

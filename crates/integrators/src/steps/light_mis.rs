@@ -48,25 +48,24 @@ impl LightMis {
         }
     }
 
-    /// The ratio in each lane where light was sampled for `from`, reached by `before`, and the direction that was sampled there
+    /// The ratio in any lane where light was sampled for `from`, reached by `before`, and the direction that was sampled there
     /// has this density, or a probability where it `is_delta`.
     #[inline(always)]
     pub(crate) fn lanes<F: Lane>(
-        before: &PathThroughput<F>,
-        from: &LaneReceiver<F>,
+        before: PathThroughput<F>,
+        from: LaneReceiver<F>,
         chance: F,
         is_delta: F::Mask,
-    ) -> F::Array<Self> {
+    ) -> impl Fn(usize) -> Self {
         let r_l = F::Spectrum::pairs([before.r_u / chance; 2]);
         let from = from.lanes();
-        F::array(|i| match is_delta.lane(i) {
+        move |i| match is_delta.lane(i) {
             true => Self::NONE,
             false => {
-                let [r_l, _] = r_l.as_ref()[i];
-                let from = from.as_ref()[i];
+                let ([r_l, _], from) = (r_l(i), from(i));
                 Self { from, r_l }
             }
-        })
+        }
     }
 
     #[inline]

@@ -80,14 +80,14 @@ impl<F: Lane> PathThroughput<F> {
         Self { beta, r_u }
     }
 
-    /// The path in each lane.
+    /// The path in any lane.
     #[inline(always)]
-    pub fn lanes(&self) -> F::Array<PathThroughput> {
+    pub fn lanes(self) -> impl Fn(usize) -> PathThroughput {
         let pairs = F::Spectrum::pairs([self.beta, self.r_u]);
-        F::array(|i| {
-            let [beta, r_u] = pairs.as_ref()[i];
+        move |i| {
+            let [beta, r_u] = pairs(i);
             PathThroughput { beta, r_u }
-        })
+        }
     }
 
     /// Extends the path by an event with contribution `factor` and densities `chance` (that of the first wavelength

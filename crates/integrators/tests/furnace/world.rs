@@ -1,5 +1,6 @@
 //! The sphere: a world without scene, materials and shapes.
 
+use etalon_math::lane::Lane;
 use etalon_math::{Area, Density, Frame, SolidAngle};
 use etalon_spectrum::{SensorWeights, WavelengthDistribution, Wavelengths, sensor_response};
 use etalon_transport::*;
@@ -41,6 +42,11 @@ impl Camera for Pinhole {
             ray: Ray::new(Vec3::ZERO, direction, time),
             weight: 1.0,
         }
+    }
+
+    fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F> {
+        let both = |[x, y]: [F; 2], i| Vec2::new(x.lane(i), y.lane(i));
+        CameraRays::of_lanes(|i| self.ray(both(raster, i), both(lens, i), time.lane(i)))
     }
 
     fn connect(&self, point: Vec3, _: Vec2, _: f32, _: f32) -> Option<CameraSample> {

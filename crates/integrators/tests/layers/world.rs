@@ -1,6 +1,7 @@
 //! The world of parallel planes.
 
 use crate::scatter::{Scatter, tilt};
+use etalon_math::lane::Lane;
 use etalon_math::{Density, Frame, SolidAngle, float};
 use etalon_spectrum::{SensorWeights, WavelengthDistribution, Wavelengths, sensor_response};
 use etalon_transport::*;
@@ -99,6 +100,11 @@ impl Camera for Camera1D {
             weight: 1.0,
         }
     }
+    fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F> {
+        let both = |[x, y]: [F; 2], i| Vec2::new(x.lane(i), y.lane(i));
+        CameraRays::of_lanes(|i| self.ray(both(raster, i), both(lens, i), time.lane(i)))
+    }
+
     fn connect(&self, _: Vec3, _: Vec2, _: f32, _: f32) -> Option<CameraSample> {
         None
     }

@@ -62,15 +62,15 @@ pub trait Spectral<F: Lane>:
         [[a, b, c, d], [e, f, g, h]].map(Self::from_waves)
     }
 
-    /// The pair of spectra in each lane.
+    /// The pair of spectra in any lane.
     #[inline(always)]
-    fn pairs(pair: [Self; 2]) -> F::Array<[glam::Vec4; 2]> {
+    fn pairs(pair: [Self; 2]) -> impl Fn(usize) -> [glam::Vec4; 2] {
         let [[a, b, c, d], [e, f, g, h]] = pair.map(Self::waves);
         let rows = F::rows([a, b, c, d, e, f, g, h]);
-        F::array(|i| {
+        move |i| {
             let [a, b, c, d, e, f, g, h] = rows.as_ref()[i];
             [[a, b, c, d], [e, f, g, h]].map(glam::Vec4::from)
-        })
+        }
     }
 
     /// The spectrum in lane `index`.

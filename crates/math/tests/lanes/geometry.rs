@@ -88,7 +88,7 @@ fn vectors_agree<F: Lane>(v: &[Vec3], s: &[Vec4]) {
                 );
             }
         };
-        assert_eq!(pairs.as_ref()[i], [x, y]);
+        assert_eq!(pairs(i), [x, y]);
         spectrum(
             p.where_negative(q, p),
             Vec4::select(x.cmplt(Vec4::ZERO), y, x),

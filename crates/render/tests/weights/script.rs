@@ -6,13 +6,14 @@
 use crate::course::Course;
 use crate::scripted_bsdf::Scripted;
 use etalon_math::DeltaProbability;
+use etalon_math::lane::Lane;
 use etalon_math::{Density, SolidAngle};
 use etalon_spectrum::{SensorWeights, Wavelengths};
 use etalon_transport::{
-    ApertureHit, BsdfOf, Camera, CameraRay, CameraSample, Emission, EmissionPdf, Hit, InstanceId,
-    LegacyPhong, LightId, LightKind, LightSample, LightSampleContext, LightVariety, Lights,
-    MediumId, NoLanes, Ray, SamplePdf, Sensor, ShadowQuery, ShapeId, SurfaceInteraction, Surfaces,
-    Transmission, World,
+    ApertureHit, BsdfOf, Camera, CameraRay, CameraRays, CameraSample, Emission, EmissionPdf, Hit,
+    InstanceId, LegacyPhong, LightId, LightKind, LightSample, LightSampleContext, LightVariety,
+    Lights, MediumId, NoLanes, Ray, SamplePdf, Sensor, ShadowQuery, ShapeId, SurfaceInteraction,
+    Surfaces, Transmission, World,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -43,6 +44,11 @@ impl<W: World> Camera for Aperture<'_, W> {
             weight: 1.0,
         }
     }
+    fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F> {
+        let both = |[x, y]: [F; 2], i| Vec2::new(x.lane(i), y.lane(i));
+        CameraRays::of_lanes(|i| self.ray(both(raster, i), both(lens, i), time.lane(i)))
+    }
+
     fn connect(&self, point: Vec3, _: Vec2, time: f32, margin: f32) -> Option<CameraSample> {
         self.camera.connect(point, self.course.lens, time, margin)
     }

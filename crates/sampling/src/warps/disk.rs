@@ -14,7 +14,14 @@ pub const CONCENTRIC_DISK_DENSITY: f32 = FRAC_1_PI;
 /// A point of the unit disk, uniform by area.
 #[inline]
 pub fn square_to_concentric_disk(u: Vec2) -> Vec2 {
-    square_to_polar(u.to_array()).1.into()
+    concentric_disk(u.to_array()).into()
+}
+
+/// [`square_to_concentric_disk`] in lanes.
+#[inline(always)]
+pub fn concentric_disk<F: Lane>(u: [F; 2]) -> [F; 2] {
+    let (_, point) = square_to_polar(u);
+    point
 }
 
 /// The signed radius of the point, in [−1, 1], and the point: the radius is exact, the point's

@@ -5,25 +5,40 @@ use etalon_bsdf::LaneBsdfAtPoint;
 use etalon_math::lane::Lane;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
-    LaneKind, LaneLightSample, LaneReceiver, LaneShading, LaneVertices, SurfaceInteraction,
+    Hit, LaneKind, LaneLightSample, LaneReceiver, LaneShading, LaneSurface, LaneVertices, Ray,
+    ShapeId,
 };
 
 impl LaneShading for Parts {
     type Bsdf<'a, F: Lane> = LaneBsdfAtPoint<'a, F>;
 
     #[inline]
-    fn kind(&self, vertex: &SurfaceInteraction) -> Option<LaneKind> {
-        self.lane_kinds[vertex.material.0 as usize]
+    fn kind(&self, hit: &Hit) -> Option<LaneKind> {
+        self.lane_kinds[hit.shape.0 as usize]
+    }
+
+    #[inline(always)] // Vectors would go through memory.
+    fn surfaces<'h, F: Lane>(
+        &self,
+        ray: impl Fn(usize) -> &'h Ray,
+        hit: impl Fn(usize) -> &'h Hit,
+    ) -> LaneSurface<F> {
+        self.space.lookup.geometry.surfaces(ray, hit)
     }
 
     #[inline]
     fn bsdf<F: Lane>(
         &self,
         kind: LaneKind,
-        vertices: LaneVertices<'_>,
+        shape: impl Fn(usize) -> ShapeId,
+        vertices: LaneVertices<'_, F>,
         wo: F::Vector,
     ) -> LaneBsdfAtPoint<'_, F> {
-        let material = |i: usize| &self.materials[vertices.vertices[i].material.0 as usize];
+        let geometry = &self.space.lookup.geometry;
+        let material = |i: usize| {
+            let material = geometry.material_of(shape(i));
+            &self.materials[material.expect("shapes of a kind have one").0 as usize]
+        };
         LaneBsdfAtPoint::new(kind, material, &self.space.lookup, vertices, wo)
     }
 

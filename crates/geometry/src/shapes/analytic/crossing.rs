@@ -1,6 +1,6 @@
 //! Crossings of a line with the surface of a shape that is intersected by a formula.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// The line o + t·d. The direction need not be a unit vector.
 #[derive(Clone, Copy, Debug)]
@@ -12,6 +12,15 @@ pub struct Line {
 }
 
 impl Line {
+    /// The line of a ray.
+    #[inline]
+    pub(crate) fn of_ray(origin: Vec3, direction: Vec3) -> Self {
+        Self {
+            origin: origin.as_dvec3(),
+            direction: direction.as_dvec3(),
+        }
+    }
+
     /// The point at parameter `t`.
     #[inline]
     pub(crate) fn at(&self, t: f64) -> DVec3 {
@@ -77,14 +86,15 @@ impl Crossing {
         }
     }
 
-    /// The one nearest to `t` of two crossings of a convex solid in ascending order, NaN if there is none.
+    /// The one nearest to `t` of two crossings of a convex solid in ascending order, NaN if there is none; one at `t` if there are
+    /// none.
     #[inline]
-    pub(crate) fn nearest_of_convex([a, b]: [f64; 2], t: f64) -> Option<Self> {
+    pub(crate) fn nearest_of_convex([a, b]: [f64; 2], t: f64) -> Self {
         let [to_a, to_b] = [a, b].map(|crossing| (crossing - t).abs());
         if to_a <= to_b || b.is_nan() {
-            (!a.is_nan()).then_some(Self::new(a, true))
+            Self::new(if a.is_nan() { t } else { a }, true)
         } else {
-            Some(Self::new(b, false))
+            Self::new(b, false)
         }
     }
 }

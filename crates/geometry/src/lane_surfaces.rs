@@ -1,0 +1,54 @@
+//! The surfaces at several hits, in lanes.
+//!
+//! Each is computed by itself, as far as it is needed, and brought into its lane. To compute triangles and rectangles in lanes as
+//! well took longer: what they are computed from must be fetched one by one, and they are mixed.
+
+use crate::geometry::Geometry;
+use crate::shapes::Shape;
+use crate::shapes::analytic::crossing::Line;
+use etalon_math::lane::Lane;
+use etalon_transport::{Hit, LaneSurface, Ray, ShadedPoint};
+
+impl Geometry {
+    /// The surface where `ray(i)` has its hit `hit(i)`, in lane i, with the bits of [`Geometry::vertex`].
+    #[inline(always)] // Vectors would go through memory.
+    pub fn surfaces<'h, F: Lane>(
+        &self,
+        ray: impl Fn(usize) -> &'h Ray,
+        hit: impl Fn(usize) -> &'h Hit,
+    ) -> LaneSurface<F> {
+        LaneSurface::of_lanes(|i| self.shaded_point(ray(i), hit(i)))
+    }
+
+    /// What lanes need of [`Geometry::vertex`].
+    #[inline(always)] // So that it is made where it stays, and nothing else is.
+    fn shaded_point(&self, ray: &Ray, hit: &Hit) -> ShadedPoint {
+        let shape = &self.shapes[hit.shape.0 as usize];
+        if hit.instance.is_some() || shape.is_analytic() {
+            return self.shaded_elsewhere(shape, ray, hit);
+        }
+        let surface = match shape {
+            Shape::Rectangle(rectangle) => rectangle.surface(hit.primitive, hit.parameters),
+            _ => {
+                let mesh = shape.mesh().expect("it has triangles");
+                // Tracing the ray has brought the accelerator's copy of the corners close.
+                let corners = self.world.accelerator.corners(hit.slot);
+                mesh.surface_between(corners, hit.primitive, hit.parameters)
+            }
+        };
+        surface.shaded(hit.primitive)
+    }
+
+    /// The same on an instance or a shape that is intersected by a formula.
+    #[inline(never)]
+    fn shaded_elsewhere(&self, shape: &Shape, ray: &Ray, hit: &Hit) -> ShadedPoint {
+        match shape {
+            Shape::Sphere(sphere) if !hit.instance.is_some() => {
+                let line = Line::of_ray(ray.origin, ray.direction);
+                let surface = sphere.surface_near(&line, hit.t.into());
+                surface.shaded(hit.primitive)
+            }
+            _ => ShadedPoint::from(&self.vertex(ray, hit)),
+        }
+    }
+}
