@@ -203,6 +203,7 @@ impl GeometryBuilder {
                     scope.add(PrimitiveOwner::Instance(id), 1, bounds);
                 }
             }
+            scope.finish();
             let contents = Contents {
                 scope: &scope,
                 shapes: &shapes,

@@ -28,8 +28,9 @@ pub(crate) enum PrimitiveOwner {
 pub(crate) struct PrimitiveIndex {
     members: Vec<PrimitiveRange>,
     count: u32,
-    /// From this primitive on, and this member, each member has one: instances, and smooth shapes at the end.
-    single: (u32, usize),
+    /// The member of every primitive whose number is a multiple of 2^`shift`, and the last one; see [`PrimitiveIndex::finish`].
+    known: Vec<u32>,
+    shift: u32,
     /// Box of everything that has an end.
     pub(crate) bounds: Bounds,
     /// Whether anything has none.
@@ -37,6 +38,9 @@ pub(crate) struct PrimitiveIndex {
     /// The largest magnitude of a coordinate.
     extent: f32,
 }
+
+/// With so many steps, there is rarely more than one member between two.
+const STEPS_PER_MEMBER: usize = 8;
 
 impl Default for Bounds {
     fn default() -> Self {
@@ -58,15 +62,29 @@ impl PrimitiveIndex {
             .count
             .checked_add(primitives)
             .expect("fewer than 2³² primitives");
-        if primitives > 1 {
-            self.single = (self.count, self.members.len());
-        }
         if bounds.is_endless() {
             self.is_endless = true;
             return;
         }
         self.bounds = self.bounds.union(bounds);
         self.extent = self.bounds.extent();
+    }
+
+    /// Prepares [`PrimitiveIndex::locate`], when everything has been added.
+    pub(crate) fn finish(&mut self) {
+        let steps = self.members.len().saturating_mul(STEPS_PER_MEMBER);
+        self.shift = 0;
+        while (self.count >> self.shift) as usize > steps {
+            self.shift += 1;
+        }
+        let member = |primitive: u32| {
+            let after = self
+                .members
+                .partition_point(|member| member.first <= primitive);
+            after.saturating_sub(1) as u32
+        };
+        let steps = (0..self.count).step_by(1 << self.shift);
+        self.known = steps.chain(self.count.checked_sub(1)).map(member).collect();
     }
 
     /// Number of primitives.
@@ -84,12 +102,10 @@ impl PrimitiveIndex {
     #[inline]
     pub(crate) fn locate(&self, primitive: u32) -> (PrimitiveOwner, u32) {
         let members = self.members.as_slice();
-        let (first, member) = self.single;
-        if primitive >= first {
-            return (members[member + (primitive - first) as usize].thing, 0);
-        }
+        let step = (primitive >> self.shift) as usize;
+        let (mut at, last) = (self.known[step] as usize, self.known[step + 1] as usize);
         // The last one that does not begin after it, which branches could not predict.
-        let (mut at, mut count) = (0, members.len());
+        let mut count = last - at + 1;
         while count > 1 {
             let half = count / 2;
             let is_beyond = members[at + half].first <= primitive;
@@ -170,6 +186,34 @@ impl Primitives for Contents<'_> {
             (PrimitiveOwner::Instance(instance), _) => {
                 let found = self.instances.binary_search_by_key(&instance.0, |id| id.0);
                 found.map_or(Bounds::EMPTY, |index| self.boxes[index])
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::with_cases(256) })]
+
+        /// Mutants rejected: a step too short or too long, the last member left out, members between two steps not searched.
+        #[test]
+        fn every_primitive_has_its_owner(sizes in prop::collection::vec(prop_oneof![0..3_u32, 1..2_u32, 1..3000_u32], 1..40)) {
+            let mut index = PrimitiveIndex::default();
+            let mut expected = Vec::new();
+            for (i, size) in (0..).zip(sizes) {
+                index.add(PrimitiveOwner::Shape(ShapeId(i)), size, Bounds::EMPTY);
+                expected.extend((0..size).map(|primitive| (i, primitive)));
+            }
+            index.finish();
+            for (primitive, expected) in (0..).zip(expected) {
+                let (owner, own) = index.locate(primitive);
+                prop_assert!(matches!(owner, PrimitiveOwner::Shape(shape) if shape.0 == expected.0));
+                prop_assert_eq!(own, expected.1);
             }
         }
     }

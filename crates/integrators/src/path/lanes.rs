@@ -318,12 +318,13 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         let path = |i: usize| &paths[index[i]];
         let surface = lanes.surfaces::<F>(ray, hit);
         let leaving = surface.leaving;
-        let left = |i: usize| LeftSurface {
+        let left = F::array(|i| LeftSurface {
             shape: hit(i).shape,
             primitive: surface.primitives[i],
             time: ray(i).time,
             media: MediumInterface::within(ray(i).medium),
-        };
+        });
+        let left = left.as_ref();
         let wavelengths = F::array(|i| path(i).wavelengths);
         let wavelengths = wavelengths.as_ref();
         let texture_point = |i| TexturePoint::from(&world.surfaces().vertex(ray(i), hit(i)));
@@ -382,7 +383,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             for i in (0..count).filter(|i| found.lane(*i)) {
                 self.waiting.push((index[i], unoccluded(i)));
                 self.shadow_rays.push(ShadowQuery {
-                    ray: shadow_ray(i, left(i)),
+                    ray: shadow_ray(i, left[i]),
                     wavelengths: wavelengths[i],
                     crossings: config.null_crossings(paths[index[i]].depth),
                 });
@@ -416,7 +417,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             path.depth += 1;
             if goes_on.lane(i) {
                 self.continued.push(index[i]);
-                self.next_rays.push(next(i, left(i)));
+                self.next_rays.push(next(i, left[i]));
             }
         }
     }
