@@ -28,7 +28,10 @@ pub(crate) enum PrimitiveOwner {
 pub(crate) struct PrimitiveIndex {
     members: Vec<PrimitiveRange>,
     count: u32,
-    /// The member of every primitive whose number is a multiple of 2^`shift`, and the last one; see [`PrimitiveIndex::finish`].
+    /// From this primitive on, and this member, each member has one: instances, and smooth shapes at the end.
+    single: (u32, usize),
+    /// Before that: the member of every primitive whose number is a multiple of 2^`shift`, and the last one; see
+    /// [`PrimitiveIndex::finish`].
     known: Vec<u32>,
     shift: u32,
     /// Box of everything that has an end.
@@ -62,6 +65,9 @@ impl PrimitiveIndex {
             .count
             .checked_add(primitives)
             .expect("fewer than 2³² primitives");
+        if primitives > 1 {
+            self.single = (self.count, self.members.len());
+        }
         if bounds.is_endless() {
             self.is_endless = true;
             return;
@@ -72,9 +78,10 @@ impl PrimitiveIndex {
 
     /// Prepares [`PrimitiveIndex::locate`], when everything has been added.
     pub(crate) fn finish(&mut self) {
-        let steps = self.members.len().saturating_mul(STEPS_PER_MEMBER);
+        let (count, members) = self.single;
+        let steps = members.saturating_mul(STEPS_PER_MEMBER);
         self.shift = 0;
-        while (self.count >> self.shift) as usize > steps {
+        while (count >> self.shift) as usize > steps {
             self.shift += 1;
         }
         let member = |primitive: u32| {
@@ -83,8 +90,8 @@ impl PrimitiveIndex {
                 .partition_point(|member| member.first <= primitive);
             after.saturating_sub(1) as u32
         };
-        let steps = (0..self.count).step_by(1 << self.shift);
-        self.known = steps.chain(self.count.checked_sub(1)).map(member).collect();
+        let steps = (0..count).step_by(1 << self.shift);
+        self.known = steps.chain(count.checked_sub(1)).map(member).collect();
     }
 
     /// Number of primitives.
@@ -102,6 +109,10 @@ impl PrimitiveIndex {
     #[inline]
     pub(crate) fn locate(&self, primitive: u32) -> (PrimitiveOwner, u32) {
         let members = self.members.as_slice();
+        let (first, member) = self.single;
+        if primitive >= first {
+            return (members[member + (primitive - first) as usize].thing, 0);
+        }
         let step = (primitive >> self.shift) as usize;
         let (mut at, last) = (self.known[step] as usize, self.known[step + 1] as usize);
         // The last one that does not begin after it, which branches could not predict.
