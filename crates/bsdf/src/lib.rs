@@ -25,8 +25,8 @@ mod material_flags;
 pub mod microfacet;
 pub mod models;
 pub mod quadrature;
-pub mod texture_site;
-mod tilt;
+mod texture_site;
+pub mod tilt;
 
 pub use bsdf_at_point::{BsdfAtPoint, MAX_LOBES};
 pub use bxdf::Bxdf;

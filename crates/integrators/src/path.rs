@@ -21,6 +21,7 @@ pub(crate) mod batch;
 mod diffusion;
 mod equiangular;
 pub(crate) mod hooks;
+mod lane_vertex;
 mod lanes;
 mod media;
 pub(crate) mod state;

@@ -27,11 +27,13 @@ pub struct CameraRays<F: Lane> {
 }
 
 impl<F: Lane> CameraRays<F> {
-    /// `ray(i)` in lane i.
+    /// The rays of a camera that makes them one by one.
     #[inline(always)]
-    pub fn of_lanes(ray: impl Fn(usize) -> CameraRay) -> Self {
+    pub fn one_by_one(camera: &impl Camera, raster: [F; 2], lens: [F; 2], time: F) -> Self {
+        let at = |[x, y]: [F; 2], i| Vec2::new(x.lane(i), y.lane(i));
         let [ox, oy, oz, dx, dy, dz, t_max, weight] = F::columns(|i| {
-            let CameraRay { ray, weight } = ray(i);
+            let start = camera.ray(at(raster, i), at(lens, i), time.lane(i));
+            let CameraRay { ray, weight } = start;
             let ([ox, oy, oz], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
             [ox, oy, oz, dx, dy, dz, ray.t_max, weight]
         });

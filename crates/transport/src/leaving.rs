@@ -6,7 +6,7 @@ use etalon_math::lane::{Lane, Select, Vector};
 use etalon_math::offset::offset_origins;
 use glam::Vec3;
 
-/// Points of surfaces that rays leave, as [`SurfaceInteraction`] describes them.
+/// Points of surfaces that rays leave, as [`SurfaceInteraction`](crate::SurfaceInteraction) describes them.
 #[derive(Clone, Copy, Debug)]
 pub struct Leaving<F: Lane> {
     /// Positions (m, world).

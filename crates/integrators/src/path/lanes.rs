@@ -5,18 +5,16 @@
 
 use crate::path::batch::{Lanes, PathBatch};
 use crate::path::hooks::PathHooks;
-use crate::steps::candidates::{Candidates, TURN};
+use crate::path::lane_vertex::LaneVertex;
+use crate::steps::candidates::Candidates;
 use crate::steps::dimensions::BounceSamples;
-use crate::steps::light_connection::UnoccludedPath;
 use crate::steps::light_mis::LightMis;
 use crate::steps::path_throughput::PathThroughput;
 use crate::steps::settings::PathConfig;
 use arrayvec::ArrayVec;
 use core::ops::ControlFlow;
-use etalon_math::float::ONE_MINUS_EPSILON;
-use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector};
+use etalon_math::lane::{Lane, Mask, Spectral, Vector};
 use etalon_sampling::Sampler;
-use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, LeavingRays, LeftSurface, Lights,
     MediumInterface, ShadowQuery, Surfaces, TexturePoint, World,
@@ -35,134 +33,6 @@ enum Arrived {
     Alone,
     /// Where it needs nothing more.
     Ended,
-}
-
-/// Connections of several vertices to lights, as [`crate::steps::light_connection::LightConnection`] describes them.
-struct LaneConnection<F: Lane> {
-    /// The lanes that have one.
-    found: F::Mask,
-    /// Unit directions to the lights.
-    direction: F::Vector,
-    /// Where on the light, in lanes where it is not at infinity.
-    target: F::Vector,
-    /// Those lanes.
-    has_target: F::Mask,
-    path: UnoccludedPath<F>,
-}
-
-impl<F: Lane> LaneConnection<F> {
-    /// `yes` in the lanes where `mask` says yes, `no` in the others.
-    #[inline(always)]
-    fn choose(mask: F::Mask, yes: Self, no: Self) -> Self {
-        let vector = |yes, no| F::Vector::choose(mask, yes, no);
-        let masks = |yes: F::Mask, no: F::Mask| (yes & mask) | (no & !mask);
-        Self {
-            found: masks(yes.found, no.found),
-            direction: vector(yes.direction, no.direction),
-            target: vector(yes.target, no.target),
-            has_target: masks(yes.has_target, no.has_target),
-            path: UnoccludedPath::choose(mask, yes.path, no.path),
-        }
-    }
-}
-
-/// Several vertices of one kind, at which light is sampled.
-struct LaneVertex<'v, 'a, F: Lane, L: LaneShading + 'a> {
-    lanes: &'a L,
-    bsdf: &'v L::Bsdf<'a, F>,
-    wavelengths: &'v [Wavelengths],
-    wo: F::Vector,
-    from: LaneReceiver<F>,
-    /// The paths that led there.
-    before: PathThroughput<F>,
-}
-
-impl<F: Lane, L: LaneShading> LaneVertex<'_, '_, F, L> {
-    /// The connection to a light sample.
-    #[inline(always)]
-    fn connect(&self, wanted: F::Mask, u_light: F, u: [F; 2]) -> LaneConnection<F> {
-        let light = (self.lanes).sample_light(&self.from, self.wavelengths, wanted, u_light, u);
-        let (value, density) = self.bsdf.eval_and_density(self.wo, light.direction);
-        let contribution = value * light.radiance;
-        LaneConnection {
-            found: light.found & !contribution.is_zero(),
-            direction: light.direction,
-            target: light.target,
-            has_target: light.has_target,
-            path: UnoccludedPath::new(
-                &self.before,
-                contribution,
-                (F::Spectrum::uniform(light.chance), light.is_delta),
-                self.before.r_u * density,
-                [1.0; 2],
-            ),
-        }
-    }
-
-    /// Resamples up to `most` light samples for one shadow ray, `counts` of them in each lane: what [`Candidates::draw`] does.
-    #[inline(always)]
-    fn resample(
-        &self,
-        events: &BounceSamples<F, [F; 2]>,
-        shift: F,
-        counts: F,
-        most: u32,
-    ) -> LaneConnection<F> {
-        let below_one = F::splat(ONE_MINUS_EPSILON);
-        let one = Lane::eq(counts, F::ONE);
-        let mut number = events.light_choice;
-        let mut sum = F::ZERO;
-        let mut ended = F::Mask::splat(false);
-        let mut chosen: Option<(LaneConnection<F>, F)> = None;
-        for i in 0..most {
-            let i = i as f32;
-            let choice = ((shift + i) / counts).min(below_one);
-            let [u, v] = [events.light[0] + TURN.x * i, events.light[1] + TURN.y * i]
-                .map(|u| (u - u.floor()).min(below_one));
-            let wanted = F::splat(i).lt(counts) & !ended;
-            let candidate = self.connect(
-                wanted,
-                one.select(events.light_choice, choice),
-                [
-                    one.select(events.light[0], u),
-                    one.select(events.light[1], v),
-                ],
-            );
-            let active = wanted & candidate.found;
-            let expected = candidate.path.unoccluded().sum();
-            let infinite = !expected.abs().lt(F::splat(f32::INFINITY));
-            let counted = active & !infinite & expected.gt(F::ZERO);
-            sum = counted.select(sum + expected, sum);
-            let p = expected / sum;
-            let taken = number.lt(p);
-            let rest = taken
-                .select(number / p, (number - p) / (F::ONE - p))
-                .min(below_one);
-            number = counted.select(rest, number);
-            // What is not finite is not for the choice to hide.
-            let take = active & (one | infinite | (counted & taken));
-            ended = ended | (active & infinite);
-            let certain = one | infinite;
-            let kept = certain.select(F::ZERO, expected);
-            chosen = Some(match chosen {
-                None => {
-                    let mut candidate = candidate;
-                    candidate.found = take;
-                    (candidate, kept)
-                }
-                Some((before, expected)) => (
-                    LaneConnection::choose(take, candidate, before),
-                    take.select(kept, expected),
-                ),
-            });
-        }
-        let (mut connection, expected) = chosen.expect("at least one candidate");
-        let weighed = expected.gt(F::ZERO);
-        let factor = weighed.select(sum / (expected * counts), F::ONE);
-        let beta = &mut connection.path.throughput.beta;
-        *beta = *beta * factor;
-        connection
-    }
 }
 
 impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S, C, N> {
@@ -369,14 +239,14 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
                 }
                 _ => at.connect(F::Mask::splat(true), random.light_choice, random.light),
             };
-            let (has_target, infinite) =
-                (connection.has_target, leaving.spawn(connection.direction));
+            let light = &connection.light;
+            let (has_target, infinite) = (light.has_target, leaving.spawn(light.direction));
             let (shadow_rays, found) = match has_target.any() {
-                false => (infinite, connection.found),
+                false => (infinite, light.found),
                 true => {
-                    let (segments, exist) = leaving.toward(connection.target);
+                    let (segments, exist) = leaving.toward(light.target);
                     let rays = LeavingRays::choose(has_target, segments, infinite);
-                    (rays, connection.found & (exist | !has_target))
+                    (rays, light.found & (exist | !has_target))
                 }
             };
             let (shadow_ray, unoccluded) = (shadow_rays.lanes(), connection.path.lanes());

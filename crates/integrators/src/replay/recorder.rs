@@ -72,8 +72,7 @@ impl<C: Camera> Camera for Recording<'_, C> {
     }
 
     fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F> {
-        let both = |[x, y]: [F; 2], i| Vec2::new(x.lane(i), y.lane(i));
-        CameraRays::of_lanes(|i| self.ray(both(raster, i), both(lens, i), time.lane(i)))
+        CameraRays::one_by_one(self, raster, lens, time)
     }
 
     fn connect(&self, point: Vec3, lens: Vec2, time: f32, margin: f32) -> Option<CameraSample> {

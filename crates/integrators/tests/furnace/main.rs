@@ -7,6 +7,7 @@
 mod chains;
 mod chance;
 mod photons;
+mod pinhole;
 mod techniques;
 mod world;
 

@@ -7,6 +7,7 @@
 //! exactly, for any limit on the length of paths. See [`exact`].
 
 mod agreement;
+mod camera_1d;
 mod channels;
 mod exact;
 mod guided;

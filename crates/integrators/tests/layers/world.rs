@@ -1,7 +1,7 @@
 //! The world of parallel planes.
 
+use crate::camera_1d::Camera1D;
 use crate::scatter::{Scatter, tilt};
-use etalon_math::lane::Lane;
 use etalon_math::{Density, Frame, SolidAngle, float};
 use etalon_spectrum::{SensorWeights, WavelengthDistribution, Wavelengths, sensor_response};
 use etalon_transport::*;
@@ -83,40 +83,6 @@ pub(crate) struct Stack {
     /// Whether scattering models say that they scatter to one side only.
     pub one_sided: bool,
     pub distribution: WavelengthDistribution,
-}
-
-/// A camera with one slanted ray.
-#[derive(Clone, Copy)]
-pub(crate) struct Camera1D {
-    pub height: f32,
-    pub up: bool,
-}
-
-impl Camera for Camera1D {
-    fn ray(&self, _: Vec2, _: Vec2, time: f32) -> CameraRay {
-        let z = if self.up { 0.8 } else { -0.8 };
-        CameraRay {
-            ray: Ray::new(Vec3::Z * self.height, Vec3::new(0.6, 0.0, z), time),
-            weight: 1.0,
-        }
-    }
-    fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F> {
-        let both = |[x, y]: [F; 2], i| Vec2::new(x.lane(i), y.lane(i));
-        CameraRays::of_lanes(|i| self.ray(both(raster, i), both(lens, i), time.lane(i)))
-    }
-
-    fn connect(&self, _: Vec3, _: Vec2, _: f32, _: f32) -> Option<CameraSample> {
-        None
-    }
-    fn has_lens(&self) -> bool {
-        false
-    }
-    fn intersect_aperture(&self, _: &Ray, _: f32) -> Option<ApertureHit> {
-        None
-    }
-    fn can_receive(&self) -> bool {
-        false
-    }
 }
 
 fn curve(f: Curve, lambda: Vec4) -> Vec4 {
