@@ -4,10 +4,11 @@
 //! well took longer: what they are computed from must be fetched one by one, and they are mixed.
 
 use crate::geometry::Geometry;
+use crate::local_interaction::LocalInteraction;
 use crate::shapes::Shape;
 use crate::shapes::analytic::crossing::Line;
 use etalon_math::lane::Lane;
-use etalon_transport::{Hit, LaneSurface, Ray, ShadedPoint};
+use etalon_transport::{Hit, LaneSurface, Ray, ShadedPoint, TexturePoint};
 
 impl Geometry {
     /// The surface where `ray(i)` has its hit `hit(i)`, in lane i, with the bits of [`Geometry::vertex`].
@@ -20,29 +21,49 @@ impl Geometry {
         LaneSurface::of_lanes(|i| self.shaded_point(ray(i), hit(i)))
     }
 
+    /// The point of a hit, for textures, with the bits of [`Geometry::vertex`].
+    #[inline]
+    pub fn texture_point(&self, ray: &Ray, hit: &Hit) -> TexturePoint {
+        let Some(surface) = self.triangle_of_world(hit) else {
+            return TexturePoint::from(&self.vertex(ray, hit));
+        };
+        TexturePoint {
+            position: surface.position,
+            uv: surface.uv,
+            shape: hit.shape,
+            primitive: hit.primitive,
+            parameters: hit.parameters,
+        }
+    }
+
     /// What lanes need of [`Geometry::vertex`].
     #[inline(always)] // So that it is made where it stays, and nothing else is.
     fn shaded_point(&self, ray: &Ray, hit: &Hit) -> ShadedPoint {
-        let shape = &self.shapes[hit.shape.0 as usize];
-        if hit.instance.is_some() || shape.is_analytic() {
-            return self.shaded_elsewhere(shape, ray, hit);
+        match self.triangle_of_world(hit) {
+            Some(surface) => surface.shaded(hit.primitive),
+            None => self.shaded_elsewhere(ray, hit),
         }
-        let surface = match shape {
+    }
+
+    /// The surface of a hit on a triangle that no instance places.
+    #[inline(always)] // As above.
+    fn triangle_of_world(&self, hit: &Hit) -> Option<LocalInteraction> {
+        let shape = &self.shapes[hit.shape.0 as usize];
+        let mesh = shape.triangles().filter(|_| !hit.instance.is_some())?;
+        Some(match shape {
             Shape::Rectangle(rectangle) => rectangle.surface(hit.primitive, hit.parameters),
             _ => {
-                let mesh = shape.mesh().expect("it has triangles");
                 // Tracing the ray has brought the accelerator's copy of the corners close.
                 let corners = self.world.accelerator.corners(hit.slot);
                 mesh.surface_between(corners, hit.primitive, hit.parameters)
             }
-        };
-        surface.shaded(hit.primitive)
+        })
     }
 
     /// The same on an instance or a shape that is intersected by a formula.
     #[inline(never)]
-    fn shaded_elsewhere(&self, shape: &Shape, ray: &Ray, hit: &Hit) -> ShadedPoint {
-        match shape {
+    fn shaded_elsewhere(&self, ray: &Ray, hit: &Hit) -> ShadedPoint {
+        match &self.shapes[hit.shape.0 as usize] {
             Shape::Sphere(sphere) if !hit.instance.is_some() => {
                 let line = Line::of_ray(ray.origin, ray.direction);
                 let surface = sphere.surface_near(&line, hit.t.into());

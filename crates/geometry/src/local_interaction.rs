@@ -34,6 +34,7 @@ pub(crate) struct LocalInteraction {
 impl LocalInteraction {
     /// The smooth point `p`, computed in double precision: all error is that of rounding it,
     /// doubled because the next ray's intersection rounds as well.
+    #[inline(always)] // So that nothing is computed that the caller does not need.
     pub(crate) fn exact(p: DVec3, normal: DVec3, uv: Vec2, dp_du: DVec3, dp_dv: DVec3) -> Self {
         let position = p.as_vec3();
         let depth = (p - position.as_dvec3()).dot(normal) as f32;
@@ -80,6 +81,7 @@ impl LocalInteraction {
     }
 
     /// The same point on the other side: the normals turn, the parametrisation stays.
+    #[inline(always)] // As above.
     pub(crate) fn flipped_if(mut self, flip: bool) -> Self {
         if flip {
             self.normal = -self.normal;

@@ -6,7 +6,7 @@
 
 use crate::{
     BsdfSample, Hit, LaneSurface, LaneVertices, LightSample, LightSampleContext, Ray, SamplePdf,
-    ShapeId,
+    ShapeId, TexturePoint,
 };
 use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector, per_lane};
 use etalon_math::{DeltaProbability, Density};
@@ -290,6 +290,9 @@ pub trait LaneShading: Sync {
         hit: impl Fn(usize) -> &'h Hit,
     ) -> LaneSurface<F>;
 
+    /// The point at a hit, for textures, as that vertex has it.
+    fn texture_point(&self, ray: &Ray, hit: &Hit) -> TexturePoint;
+
     /// The scattering models of vertices of one kind, of the shapes `shape(i)`.
     fn bsdf<F: Lane>(
         &self,
@@ -354,6 +357,10 @@ impl LaneShading for NoLanes {
         _: impl Fn(usize) -> &'h Ray,
         _: impl Fn(usize) -> &'h Hit,
     ) -> LaneSurface<F> {
+        match *self {}
+    }
+
+    fn texture_point(&self, _: &Ray, _: &Hit) -> TexturePoint {
         match *self {}
     }
 

@@ -6,7 +6,7 @@ use etalon_geometry::shapes::mesh::MeshOptions;
 use etalon_geometry::shapes::rectangle::Rectangle;
 use etalon_geometry::{Geometry, GeometryBuilder, Shape};
 use etalon_math::lane::{F32x8, F32x16, Lane, Vector};
-use etalon_transport::{Hit, LightId, MaterialId, MeshData, Ray};
+use etalon_transport::{Hit, LightId, MaterialId, MeshData, Ray, TexturePoint};
 use glam::{Vec2, Vec3};
 
 /// Spheres of triangles: with or without normals, turned or not, with texture coordinates that are useful, vanish, or are not
@@ -90,6 +90,16 @@ fn compare<F: Lane>(geometry: &Geometry, hits: &[(Ray, Hit)]) {
             "{hit:?}"
         );
         assert_eq!(surface.primitives[i], alone.primitive, "{hit:?}");
+        let texture = geometry.texture_point(ray, hit);
+        let expected = TexturePoint::from(&alone);
+        assert_eq!(
+            (texture.position, texture.uv, texture.parameters),
+            (expected.position, expected.uv, expected.parameters)
+        );
+        assert_eq!(
+            (texture.shape, texture.primitive),
+            (expected.shape, expected.primitive)
+        );
     }
 }
 

@@ -17,7 +17,7 @@ use etalon_math::lane::{Lane, Mask, Spectral, Vector};
 use etalon_sampling::Sampler;
 use etalon_transport::{
     LaneBsdf, LaneKind, LaneReceiver, LaneShading, LaneVertices, LeavingRays, LeftSurface, Lights,
-    MediumInterface, ShadowQuery, Surfaces, TexturePoint, World,
+    MediumInterface, ShadowQuery, Surfaces, World,
 };
 
 /// So many paths take as long in lanes as one by one.
@@ -197,7 +197,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         let left = left.as_ref();
         let wavelengths = F::array(|i| path(i).wavelengths);
         let wavelengths = wavelengths.as_ref();
-        let texture_point = |i| TexturePoint::from(&world.surfaces().vertex(ray(i), hit(i)));
+        let texture_point = |i| lanes.texture_point(ray(i), hit(i));
         let vertices = LaneVertices {
             surface: &surface,
             texture_point: &texture_point,

@@ -6,7 +6,7 @@ use etalon_math::lane::Lane;
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{
     Hit, LaneKind, LaneLightSample, LaneReceiver, LaneShading, LaneSurface, LaneVertices, Ray,
-    ShapeId,
+    ShapeId, TexturePoint,
 };
 
 impl LaneShading for Parts {
@@ -24,6 +24,11 @@ impl LaneShading for Parts {
         hit: impl Fn(usize) -> &'h Hit,
     ) -> LaneSurface<F> {
         self.space.lookup.geometry.surfaces(ray, hit)
+    }
+
+    #[inline]
+    fn texture_point(&self, ray: &Ray, hit: &Hit) -> TexturePoint {
+        self.space.lookup.geometry.texture_point(ray, hit)
     }
 
     #[inline]
