@@ -6,6 +6,7 @@ use etalon_params::{Diagnostics, FileId, Node, Params, Property, Span, Spanned, 
 use glam::UVec2;
 
 mod connections;
+mod lanes;
 mod lenses;
 mod mistakes;
 mod mitsuba;

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 /// Cameras of every kind, cropped and whole, mirrored and scaled where that is allowed.
-fn cameras() -> Vec<(AnyCamera, FilmWindow)> {
+pub(super) fn cameras() -> Vec<(AnyCamera, FilmWindow)> {
     let mirrored = look_at() * DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
     let sheared = look_at()
         * DMat4::from_cols_array(&[
