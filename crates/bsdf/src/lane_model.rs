@@ -85,6 +85,8 @@ macro_rules! lane_models {
                 }
             }
         }
+
+        const _: () = assert!([$(LaneIndex::$model),*].len() <= LaneKind::COUNT);
     };
 }
 
