@@ -37,13 +37,7 @@ impl ImagePlane {
         }
     }
 
-    /// The point of the plane seen at `raster`.
-    #[inline]
-    pub fn point(&self, raster: Vec2) -> Vec2 {
-        self.corner - raster * self.pixel
-    }
-
-    /// [`ImagePlane::point`] in lanes.
+    /// The points of the plane seen at these raster positions.
     #[inline(always)]
     pub(crate) fn points<F: Lane>(&self, [x, y]: [F; 2]) -> [F; 2] {
         [

@@ -21,7 +21,7 @@ use crate::{ClipRange, FilmWindow, ImagePlane, Pose};
 use etalon_math::Animated;
 use etalon_math::lane::{Lane, Vector};
 use etalon_params::Params;
-use etalon_sampling::warps::{concentric_disk, square_to_concentric_disk};
+use etalon_sampling::warps::concentric_disk;
 use etalon_transport::{ApertureHit, Camera, CameraRay, CameraRays, CameraSample, Ray, Shutter};
 use glam::{DVec2, Vec2, Vec3};
 
@@ -86,8 +86,8 @@ impl ThinLens {
 
     /// The aperture point (camera space, z = 0) chosen by `lens`.
     #[inline]
-    fn aperture(&self, lens: Vec2) -> Vec2 {
-        square_to_concentric_disk(lens) * self.aperture_radius
+    fn aperture<F: Lane>(&self, lens: [F; 2]) -> [F; 2] {
+        concentric_disk(lens).map(|coordinate| coordinate * self.aperture_radius)
     }
 }
 
@@ -100,7 +100,7 @@ impl Camera for ThinLens {
     #[inline(always)]
     fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F> {
         let pose = LanePose::at(&self.pose, time);
-        let [a, b] = concentric_disk(lens).map(|coordinate| coordinate * self.aperture_radius);
+        let [a, b] = self.aperture(lens);
         let [x, y] = self.image.points(raster);
         let seen = pose.vector([x - a * self.focus, y - b * self.focus, F::ONE]);
         let length = seen.norm();
@@ -121,7 +121,7 @@ impl Camera for ThinLens {
             if !(depth > self.near && depth < self.far) {
                 return None;
             }
-            let aperture = self.aperture(lens);
+            let aperture = Vec2::from(self.aperture(lens.to_array()));
             let slope = (local.truncate() - aperture) / depth;
             let raster = self.image.raster(slope + aperture * self.focus);
             if !self.image.window.contains(raster, margin) {

@@ -24,40 +24,33 @@ impl Geometry {
     /// The point of a hit, for textures, with the bits of [`Geometry::vertex`].
     #[inline]
     pub fn texture_point(&self, ray: &Ray, hit: &Hit) -> TexturePoint {
-        let Some(surface) = self.triangle_of_world(hit) else {
-            return TexturePoint::from(&self.vertex(ray, hit));
-        };
-        TexturePoint {
+        let point = self.on_triangle(hit, |surface| TexturePoint {
             position: surface.position,
             uv: surface.uv,
             shape: hit.shape,
             primitive: hit.primitive,
             parameters: hit.parameters,
-        }
+        });
+        point.unwrap_or_else(|| TexturePoint::from(&self.vertex(ray, hit)))
     }
 
     /// What lanes need of [`Geometry::vertex`].
     #[inline(always)] // So that it is made where it stays, and nothing else is.
     fn shaded_point(&self, ray: &Ray, hit: &Hit) -> ShadedPoint {
-        match self.triangle_of_world(hit) {
-            Some(surface) => surface.shaded(hit.primitive),
-            None => self.shaded_elsewhere(ray, hit),
-        }
+        self.on_triangle(hit, |surface| surface.shaded(hit.primitive))
+            .unwrap_or_else(|| self.shaded_elsewhere(ray, hit))
     }
 
-    /// The surface of a hit on a triangle that no instance places.
+    /// What `take` makes of the surface of a hit on a triangle that no instance places.
     #[inline(always)] // As above.
-    fn triangle_of_world(&self, hit: &Hit) -> Option<LocalInteraction> {
+    fn on_triangle<R>(&self, hit: &Hit, take: impl Fn(LocalInteraction) -> R) -> Option<R> {
         let shape = &self.shapes[hit.shape.0 as usize];
-        let mesh = shape.triangles().filter(|_| !hit.instance.is_some())?;
-        Some(match shape {
-            Shape::Rectangle(rectangle) => rectangle.surface(hit.primitive, hit.parameters),
-            _ => {
-                // Tracing the ray has brought the accelerator's copy of the corners close.
-                let corners = self.world.accelerator.corners(hit.slot);
-                mesh.surface_between(corners, hit.primitive, hit.parameters)
-            }
-        })
+        if hit.instance.is_some() || shape.is_analytic() {
+            return None;
+        }
+        // Tracing the ray has brought the accelerator's copy of the corners close.
+        let corners = || self.world.accelerator.corners(hit.slot);
+        Some(shape.at_triangle(hit.primitive, hit.parameters, corners, take))
     }
 
     /// The same on an instance or a shape that is intersected by a formula.

@@ -10,12 +10,6 @@ use crate::shapes::analytic::crossing::Line;
 use crate::traversal_ray::TraversalRay;
 use etalon_transport::ShapeId;
 
-/// A ray as a line in double precision.
-#[inline]
-fn line_of(probe: &TraversalRay) -> Line {
-    Line::of_ray(probe.origin, probe.direction)
-}
-
 /// Intersects the smooth shapes and instances of the world.
 pub(crate) struct WorldOthers<'a, C> {
     pub(crate) geometry: &'a Geometry,
@@ -44,7 +38,7 @@ impl<C> WorldOthers<'_, C> {
         if !from.is_analytic() {
             return is_in_front(t);
         }
-        let line = line_of(probe);
+        let line = Line::of_ray(probe.origin, probe.direction);
         let departed = f64::from(probe.departure.t);
         let crossing = from.crossing_near(probe.departure.primitive, &line, departed);
         let apart = t - crossing.t;
@@ -69,7 +63,7 @@ impl<C> WorldOthers<'_, C> {
         let place = probe.origin.as_dvec3() + probe.direction.as_dvec3() * t;
         let leaves = |shape: ShapeId| {
             let shape = &self.geometry.shapes[shape.0 as usize];
-            let line = line_of(probe);
+            let line = Line::of_ray(probe.origin, probe.direction);
             (0..shape.primitives()).any(|piece| {
                 let crossing = shape.crossing_near(piece, &line, t);
                 let surface = shape.surface_at(piece, place, &crossing);
