@@ -3,6 +3,7 @@
 use crate::texture_site::Place;
 use crate::{LaneModel, Material, TextureSite};
 use arrayvec::ArrayVec;
+use core::f32::consts::PI;
 use etalon_math::lane::{Lane, LaneFrame, MOST_LANES, Mask, Spectral, Vector};
 use etalon_transport::{LaneBsdf, LaneBsdfSample, LaneKind, LaneVertices, TextureId, Textures};
 
@@ -18,6 +19,19 @@ pub(crate) trait LaneBxdf<F: Lane> {
 
     /// Samples a direction.
     fn sample_lanes(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F>;
+
+    /// See [`Bxdf::albedo`](crate::bxdf::Bxdf::albedo).
+    fn albedo_lanes(&self, wo: F::Vector) -> F::Spectrum;
+}
+
+/// π times the value toward the normal: what a diffuse surface that looks the same from there reflects.
+#[inline(always)]
+pub(crate) fn albedo_toward_normal<F: Lane>(
+    model: &impl LaneBxdf<F>,
+    wo: F::Vector,
+) -> F::Spectrum {
+    let normal = F::Vector::from_xyz(F::ZERO, F::ZERO, F::ONE);
+    model.eval_lanes(wo, normal).0 * F::splat(PI)
 }
 
 /// The spectrum of a texture that each description names, at its point.
@@ -101,5 +115,10 @@ impl<F: Lane> LaneBsdf<F> for LaneBsdfAtPoint<'_, F> {
         let mut sample = self.model.sample(self.frame.to_local(wo), u_lobe, u);
         sample.wi = self.frame.to_world(sample.wi);
         sample
+    }
+
+    #[inline]
+    fn albedo(&self, wo: F::Vector) -> F::Spectrum {
+        self.model.albedo(self.frame.to_local(wo))
     }
 }

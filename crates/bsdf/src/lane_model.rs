@@ -71,6 +71,11 @@ macro_rules! lane_models {
             pub(crate) fn sample(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F> {
                 match self { $(Self::$model(model) => model.sample_lanes(wo, u_lobe, u),)* }
             }
+
+            #[inline]
+            pub(crate) fn albedo(&self, wo: F::Vector) -> F::Spectrum {
+                match self { $(Self::$model(model) => model.albedo_lanes(wo),)* }
+            }
         }
 
         impl Material {

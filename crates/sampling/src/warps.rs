@@ -28,7 +28,7 @@ mod spherical_triangle;
 mod triangle;
 
 pub use cap::{
-    UNIFORM_HEMISPHERE_DENSITY, UNIFORM_SPHERE_DENSITY, square_to_uniform_cone,
+    UNIFORM_HEMISPHERE_DENSITY, UNIFORM_SPHERE_DENSITY, sphere_to_square, square_to_uniform_cone,
     square_to_uniform_hemisphere, square_to_uniform_sphere, uniform_cone_density,
     uniform_cone_to_square, uniform_hemisphere_to_square, uniform_sphere, uniform_sphere_to_square,
 };

@@ -239,6 +239,19 @@ impl<F: Lane> LaneBsdfSample<F> {
             ..Self::continuous(wi, value_and_chance, eta)
         }
     }
+
+    /// `yes` in the lanes where `mask` says yes, `no` in the others.
+    #[inline(always)]
+    pub fn choose(mask: F::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            found: (mask & yes.found) | (!mask & no.found),
+            wi: F::Vector::choose(mask, yes.wi, no.wi),
+            value: F::Spectrum::choose(mask, yes.value, no.value),
+            chance: F::Spectrum::choose(mask, yes.chance, no.chance),
+            is_delta: (mask & yes.is_delta) | (!mask & no.is_delta),
+            eta: mask.select(yes.eta, no.eta),
+        }
+    }
 }
 
 impl LaneBsdfSample<f32> {
@@ -271,6 +284,9 @@ pub trait LaneBsdf<F: Lane> {
 
     /// Samples a direction.
     fn sample(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F>;
+
+    /// As [`Bsdf::albedo`](crate::Bsdf::albedo) says.
+    fn albedo(&self, wo: F::Vector) -> F::Spectrum;
 }
 
 /// What a scene can do for several vertices at once.
@@ -341,6 +357,10 @@ impl<F: Lane> LaneBsdf<F> for NoLanes {
     }
 
     fn sample(&self, _: F::Vector, _: F, _: [F; 2]) -> LaneBsdfSample<F> {
+        match *self {}
+    }
+
+    fn albedo(&self, _: F::Vector) -> F::Spectrum {
         match *self {}
     }
 }

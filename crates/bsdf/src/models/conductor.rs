@@ -9,7 +9,7 @@
 use crate::interface::fresnel;
 use crate::interface::metal::Metal;
 use crate::interface::refraction::reflect;
-use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
+use crate::lane_bsdf_at_point::{LaneBxdf, albedo_toward_normal, nothing, spectra};
 use crate::{Bxdf, TextureSite};
 use etalon_math::lane::{Lane, Spectral, Vector};
 use etalon_params::Params;
@@ -98,6 +98,11 @@ impl<F: Lane> LaneBxdf<F> for Conductor<F> {
             LaneBsdfSample::discrete(wi, (self.reflectance * fresnel, certain), F::ONE);
         sample.found = wo.z().gt(F::ZERO);
         sample
+    }
+
+    #[inline(always)]
+    fn albedo_lanes(&self, wo: F::Vector) -> F::Spectrum {
+        albedo_toward_normal(self, wo)
     }
 }
 

@@ -14,7 +14,7 @@
 use crate::interface::fresnel;
 use crate::interface::refraction::reflect;
 use crate::interface::relative_index::RelativeIndex;
-use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
+use crate::lane_bsdf_at_point::{LaneBxdf, albedo_toward_normal, nothing, spectra};
 use crate::{Bxdf, TextureSite};
 use etalon_math::lane::{Lane, Select, Spectral, Vector, branch};
 use etalon_params::Params;
@@ -169,6 +169,11 @@ impl<F: Lane> LaneBxdf<F> for Dielectric<F> {
     #[inline(always)]
     fn sample_lanes(&self, wo: F::Vector, u_lobe: F, _: [F; 2]) -> LaneBsdfSample<F> {
         self.sample_in(wo, u_lobe, TransportMode::Radiance)
+    }
+
+    #[inline(always)]
+    fn albedo_lanes(&self, wo: F::Vector) -> F::Spectrum {
+        albedo_toward_normal(self, wo)
     }
 }
 

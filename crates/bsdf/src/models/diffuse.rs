@@ -87,6 +87,11 @@ impl<F: Lane> LaneBxdf<F> for Diffuse<F> {
             eta: F::ONE,
         }
     }
+
+    #[inline(always)]
+    fn albedo_lanes(&self, _: F::Vector) -> F::Spectrum {
+        self.reflectance
+    }
 }
 
 impl Bxdf for Diffuse {
@@ -114,7 +119,7 @@ impl Bxdf for Diffuse {
     }
 
     #[inline]
-    fn albedo(&self, _: Vec3) -> Vec4 {
-        self.reflectance
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.albedo_lanes(wo)
     }
 }

@@ -117,6 +117,11 @@ impl<F: Lane> LaneBxdf<F> for Plastic<F> {
         sample.found = sample.found & wo.z().gt(F::ZERO);
         sample
     }
+
+    #[inline(always)]
+    fn albedo_lanes(&self, _: F::Vector) -> F::Spectrum {
+        self.coat.diffuse
+    }
 }
 
 impl Bxdf for Plastic {
@@ -147,7 +152,7 @@ impl Bxdf for Plastic {
         false
     }
 
-    fn albedo(&self, _: Vec3) -> Vec4 {
-        self.coat.diffuse
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.albedo_lanes(wo)
     }
 }

@@ -10,7 +10,7 @@
 use crate::interface::fresnel;
 use crate::interface::metal::Metal;
 use crate::interface::refraction::{half_vector, reflect};
-use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
+use crate::lane_bsdf_at_point::{LaneBxdf, albedo_toward_normal, nothing, spectra};
 use crate::microfacet::Microfacet;
 use crate::microfacet::roughness::Roughness;
 use crate::{Bxdf, TextureSite};
@@ -121,6 +121,11 @@ impl<F: Lane> LaneBxdf<F> for RoughConductor<F> {
     fn sample_lanes(&self, wo: F::Vector, _: F, u: [F; 2]) -> LaneBsdfSample<F> {
         let wi = reflect(wo, self.microfacet.sample(wo, u));
         LaneBsdfSample::continuous(wi, self.eval_lanes(wo, wi), F::ONE)
+    }
+
+    #[inline(always)]
+    fn albedo_lanes(&self, wo: F::Vector) -> F::Spectrum {
+        albedo_toward_normal(self, wo)
     }
 }
 

@@ -16,7 +16,7 @@
 use crate::interface::fresnel;
 use crate::interface::refraction::{half_vector, reflect, refract};
 use crate::interface::relative_index::RelativeIndex;
-use crate::lane_bsdf_at_point::{LaneBxdf, nothing, spectra};
+use crate::lane_bsdf_at_point::{LaneBxdf, albedo_toward_normal, nothing, spectra};
 use crate::microfacet::Microfacet;
 use crate::microfacet::roughness::Roughness;
 use crate::{Bxdf, TextureSite};
@@ -266,6 +266,11 @@ impl<F: Lane> LaneBxdf<F> for RoughDielectric<F> {
     #[inline(always)]
     fn sample_lanes(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F> {
         self.sample_in(wo, u_lobe, u, TransportMode::Radiance)
+    }
+
+    #[inline(always)]
+    fn albedo_lanes(&self, wo: F::Vector) -> F::Spectrum {
+        albedo_toward_normal(self, wo)
     }
 }
 

@@ -127,6 +127,11 @@ impl<F: Lane> LaneBxdf<F> for RoughPlastic<'_, F> {
         );
         LaneBsdfSample::continuous(wi, self.eval_lanes(wo, wi), F::ONE)
     }
+
+    #[inline(always)]
+    fn albedo_lanes(&self, _: F::Vector) -> F::Spectrum {
+        self.coat.diffuse
+    }
 }
 
 impl Bxdf for RoughPlastic<'_> {
@@ -150,7 +155,7 @@ impl Bxdf for RoughPlastic<'_> {
         false
     }
 
-    fn albedo(&self, _: Vec3) -> Vec4 {
-        self.coat.diffuse
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.albedo_lanes(wo)
     }
 }

@@ -148,6 +148,7 @@ fn compare<F: Lane>(kind: LaneKind, scene: &Scene, cases: &[Case<'_>]) {
     let (value, density) = together.eval_and_density(wo, wi);
     let sampled = together.sample(wo, F::from_fn(|i| cases[i].lobe), u);
     let hemisphere = together.hemisphere(wo);
+    let albedo = together.albedo(wo);
 
     for (i, case) in cases.iter().enumerate() {
         let (alone, text) = (case.alone(scene), case.text);
@@ -168,6 +169,11 @@ fn compare<F: Lane>(kind: LaneKind, scene: &Scene, cases: &[Case<'_>]) {
             hemisphere.map(|n| n.at_lane(i)),
             alone.hemisphere().map(|frame| facing(frame.n)),
             "{text}: hemisphere"
+        );
+        assert_eq!(
+            bits(albedo.at_lane(i).to_array()),
+            bits(alone.albedo(case.wo).to_array()),
+            "{text}: albedo"
         );
         // A kind promises that nothing passes straight on.
         assert_eq!(alone.null_probability(), Vec4::ZERO, "{text}");

@@ -1,10 +1,14 @@
 //! The hooks of `guided` into paths: guiding and Russian roulette.
 
 use super::guided_bsdf::GuidedBsdf;
+use super::lane_guided_bsdf::LaneGuidedBsdf;
 use super::sd_tree::SdTree;
-use crate::path::hooks::PathHooks;
-use crate::steps::path_throughput::PathThroughput;
-use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
+use crate::path::hooks::{LaneHooks, PathHooks};
+use crate::steps::path_throughput::{MOST, PathThroughput};
+use etalon_math::lane::{Lane, Mask, Select, Spectral, Vector};
+use etalon_transport::{
+    Bsdf, BsdfSample, LaneBsdf, LaneBsdfSample, LaneSurface, SurfaceInteraction,
+};
 use glam::Vec3;
 
 /// Steers a path.
@@ -34,7 +38,9 @@ pub(super) fn toward(vertex: &SurfaceInteraction, wo: Vec3) -> Vec3 {
 const LEAST_SURVIVAL: f32 = 0.05;
 
 impl<'f> PathHooks for GuidedHooks<'f> {
-    const PLAIN: bool = false;
+    const LANES: bool = true;
+
+    type Lanes<F: Lane> = LaneGuidedHooks<'f, F>;
 
     type GuidedBsdf<B: Bsdf + Copy> = GuidedBsdf<'f, B>;
 
@@ -52,6 +58,22 @@ impl<'f> PathHooks for GuidedHooks<'f> {
             None
         };
         GuidedBsdf { bsdf, lobe }
+    }
+
+    #[inline(always)]
+    fn in_lanes<'h, F: Lane>(hooks: impl Fn(usize) -> &'h Self) -> LaneGuidedHooks<'f, F>
+    where
+        Self: 'h,
+    {
+        LaneGuidedHooks {
+            field: hooks(0).field,
+            reflected: F::from_fn(|i| hooks(i).reflected),
+        }
+    }
+
+    #[inline(always)]
+    fn take_lane<F: Lane>(&mut self, lanes: &LaneGuidedHooks<'f, F>, lane: usize) {
+        self.reflected = lanes.reflected.lane(lane);
     }
 
     #[inline]
@@ -73,9 +95,59 @@ impl<'f> PathHooks for GuidedHooks<'f> {
 
     #[inline]
     fn survival(&mut self, throughput: &PathThroughput, eta: f32) -> f32 {
-        let most = self.reflected.max(throughput.magnitude());
-        let survival = (most * eta * eta).clamp(LEAST_SURVIVAL, 0.95);
-        self.reflected /= survival;
+        let mut lanes = LaneGuidedHooks::<f32> {
+            field: self.field,
+            reflected: self.reflected,
+        };
+        let survival = lanes.survival(true, throughput, eta);
+        self.reflected = lanes.reflected;
+        survival
+    }
+}
+
+/// [`GuidedHooks`] of several paths in one field.
+#[derive(Clone, Copy)]
+pub(crate) struct LaneGuidedHooks<'f, F> {
+    field: &'f SdTree,
+    reflected: F,
+}
+
+impl<'f, F: Lane> LaneHooks<F> for LaneGuidedHooks<'f, F> {
+    type GuidedBsdf<B: LaneBsdf<F>> = LaneGuidedBsdf<'f, F, B>;
+
+    #[inline(always)]
+    fn wrap_bsdf<B: LaneBsdf<F>>(
+        &self,
+        surface: &LaneSurface<F>,
+        wo: F::Vector,
+        bsdf: impl FnOnce() -> B,
+    ) -> LaneGuidedBsdf<'f, F, B> {
+        let bsdf = bsdf();
+        if !bsdf.has_continuous() {
+            return LaneGuidedBsdf::new(bsdf, |_| None);
+        }
+        let (position, n) = (surface.leaving.position, surface.shading.n);
+        let normal = F::Vector::choose(n.dot_product(wo).lt(F::ZERO), -n, n);
+        LaneGuidedBsdf::new(bsdf, |i| {
+            self.field.lobe(position.at_lane(i), normal.at_lane(i))
+        })
+    }
+
+    #[inline(always)]
+    fn on_scatter(&mut self, bsdf: &impl LaneBsdf<F>, wo: F::Vector, sample: &LaneBsdfSample<F>) {
+        let discrete = sample.value.greatest() * 4.0 / sample.chance.sum();
+        let albedo = match sample.is_delta.all() {
+            true => discrete,
+            false => bsdf.albedo(wo).greatest(),
+        };
+        self.reflected = self.reflected * sample.is_delta.select(discrete, albedo);
+    }
+
+    #[inline(always)]
+    fn survival(&mut self, played: F::Mask, throughput: &PathThroughput<F>, eta: F) -> F {
+        let most = self.reflected.max(throughput.magnitude()) * eta * eta;
+        let survival = most.max(F::splat(LEAST_SURVIVAL)).min(F::splat(MOST));
+        self.reflected = played.select(self.reflected / survival, self.reflected);
         survival
     }
 }

@@ -33,6 +33,7 @@
 mod fraction;
 mod guided_bsdf;
 mod guided_hooks;
+mod lane_guided_bsdf;
 mod sd_tree;
 #[cfg(test)]
 mod tests;

@@ -7,11 +7,10 @@
 //! look for light where the wall beside it finds some.
 
 use etalon_math::float::ONE_MINUS_EPSILON;
+use etalon_math::lane::Lane;
 use etalon_math::{Density, SolidAngle};
 use etalon_sampling::discrete::{Quadtree, Refinement};
-use etalon_sampling::warps::{
-    UNIFORM_SPHERE_DENSITY, square_to_uniform_sphere, uniform_sphere_to_square,
-};
+use etalon_sampling::warps::{UNIFORM_SPHERE_DENSITY, sphere_to_square, uniform_sphere};
 use glam::{Vec2, Vec3};
 use std::sync::LazyLock;
 
@@ -221,23 +220,49 @@ struct Old<'a> {
 /// The density with which a lobe finds a direction: alike in all lanes.
 #[inline]
 pub(crate) fn density(lobe: &Quadtree, direction: Vec3) -> Density<SolidAngle> {
-    Density::uniform(UNIFORM_SPHERE_DENSITY * lobe.density(place_of(direction)))
+    Density::uniform(density_at(lobe, place_of(direction)))
+}
+
+/// The density (sr⁻¹) with which a lobe finds the direction at a point of the square.
+#[inline]
+pub(crate) fn density_at(lobe: &Quadtree, place: Vec2) -> f32 {
+    UNIFORM_SPHERE_DENSITY * lobe.density(place)
 }
 
 /// A direction of a lobe, and the density with which it is found.
 #[inline]
 pub(crate) fn sample(lobe: &Quadtree, u: Vec2) -> (Vec3, Density<SolidAngle>) {
-    let (place, density) = lobe.sample(u);
+    let (place, density) = sample_place(lobe, u);
     (
-        square_to_uniform_sphere(place),
-        Density::uniform(UNIFORM_SPHERE_DENSITY * density),
+        directions::<f32>(place.to_array()),
+        Density::uniform(density),
     )
+}
+
+/// The point of the square for a direction of a lobe, and the density (sr⁻¹) with which it is found.
+#[inline]
+pub(crate) fn sample_place(lobe: &Quadtree, u: Vec2) -> (Vec2, f32) {
+    let (place, density) = lobe.sample(u);
+    (place, UNIFORM_SPHERE_DENSITY * density)
+}
+
+/// The directions at points of the square.
+#[inline(always)]
+pub(crate) fn directions<F: Lane>(places: [F; 2]) -> F::Vector {
+    uniform_sphere(places)
 }
 
 /// The point of the square for a direction.
 #[inline]
 pub(crate) fn place_of(direction: Vec3) -> Vec2 {
-    uniform_sphere_to_square(direction).clamp(Vec2::ZERO, Vec2::splat(ONE_MINUS_EPSILON))
+    places::<f32>(direction).into()
+}
+
+/// The points of the square for directions.
+#[inline(always)]
+pub(crate) fn places<F: Lane>(directions: F::Vector) -> [F; 2] {
+    let end = F::splat(ONE_MINUS_EPSILON);
+    sphere_to_square::<F>(directions).map(|u| u.max(F::ZERO).min(end))
 }
 
 /// The resolution of directions, if squares with more than this share of the light are divided.

@@ -20,6 +20,7 @@ use super::guided_hooks::{GuidedHooks, toward};
 use super::sd_tree;
 use crate::path::hooks::PathHooks;
 use crate::steps::path_throughput::PathThroughput;
+use etalon_math::lane::Lane;
 use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
 use glam::{Vec3, Vec4};
 use std::f32::consts::FRAC_1_PI;
@@ -135,9 +136,20 @@ impl PathVertex {
 }
 
 impl<'f> PathHooks for TrainingPath<'f> {
-    const PLAIN: bool = false;
+    /// A training path keeps what it finds vertex by vertex.
+    const LANES: bool = false;
+
+    type Lanes<F: Lane> = ();
 
     type GuidedBsdf<B: Bsdf + Copy> = GuidedBsdf<'f, B>;
+
+    fn in_lanes<'h, F: Lane>(_: impl Fn(usize) -> &'h Self)
+    where
+        Self: 'h,
+    {
+    }
+
+    fn take_lane<F: Lane>(&mut self, (): &(), _: usize) {}
 
     fn wrap_bsdf<B: Bsdf + Copy>(
         &self,

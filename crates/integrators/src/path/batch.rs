@@ -126,7 +126,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
     /// Brings every path to its next vertex, and scatters it there.
     #[inline]
     pub(crate) fn advance(&mut self, world: &'w W, config: &PathConfig) {
-        match world.lanes().filter(|_| C::PLAIN) {
+        match world.lanes().filter(|_| C::LANES) {
             Some(lanes) => self.advance_by_kind((world, lanes, config)),
             None => (0..self.active.len()).for_each(|segment| {
                 self.advance_alone((world, config), segment);

@@ -1,13 +1,19 @@
 //! Hooks into the path loop, used by path guiding: wrap the BSDF at each vertex, and observe contributions.
 
 use crate::steps::path_throughput::PathThroughput;
-use etalon_transport::{Bsdf, BsdfSample, SurfaceInteraction};
+use etalon_math::lane::Lane;
+use etalon_transport::{
+    Bsdf, BsdfSample, LaneBsdf, LaneBsdfSample, LaneSurface, SurfaceInteraction,
+};
 use glam::{Vec3, Vec4};
 
 /// What is called along a path. `()` is the plain path tracer.
 pub(crate) trait PathHooks {
-    /// Whether nothing is called, so that several paths may be scattered together.
-    const PLAIN: bool;
+    /// Whether paths with these hooks may be scattered together, in lanes.
+    const LANES: bool;
+
+    /// The hooks of several paths. Where there are no lanes, nothing asks for them.
+    type Lanes<F: Lane>: LaneHooks<F>;
 
     /// A scattering model that samples other directions than `B`, but scatters the same light.
     type GuidedBsdf<B: Bsdf + Copy>: Bsdf;
@@ -20,6 +26,14 @@ pub(crate) trait PathHooks {
         wo: Vec3,
         bsdf: impl FnOnce() -> B,
     ) -> Self::GuidedBsdf<B>;
+
+    /// Those of `hooks(i)` in lane i.
+    fn in_lanes<'h, F: Lane>(hooks: impl Fn(usize) -> &'h Self) -> Self::Lanes<F>
+    where
+        Self: 'h;
+
+    /// Becomes what the hooks in this lane have become.
+    fn take_lane<F: Lane>(&mut self, lanes: &Self::Lanes<F>, lane: usize);
 
     /// After the BSDF was sampled; `throughput` leaves the vertex.
     #[inline]
@@ -60,8 +74,52 @@ pub(crate) trait PathHooks {
     }
 }
 
+/// [`PathHooks`] of several paths at surfaces of one kind.
+pub(crate) trait LaneHooks<F: Lane>: Copy {
+    /// As [`PathHooks::GuidedBsdf`].
+    type GuidedBsdf<B: LaneBsdf<F>>: LaneBsdf<F>;
+
+    /// As [`PathHooks::wrap_bsdf`].
+    fn wrap_bsdf<B: LaneBsdf<F>>(
+        &self,
+        surface: &LaneSurface<F>,
+        wo: F::Vector,
+        bsdf: impl FnOnce() -> B,
+    ) -> Self::GuidedBsdf<B>;
+
+    /// As [`PathHooks::on_scatter`].
+    fn on_scatter(&mut self, bsdf: &impl LaneBsdf<F>, wo: F::Vector, sample: &LaneBsdfSample<F>);
+
+    /// As [`PathHooks::survival`]; roulette is played where `played` says so.
+    fn survival(&mut self, played: F::Mask, throughput: &PathThroughput<F>, eta: F) -> F;
+}
+
+impl<F: Lane> LaneHooks<F> for () {
+    type GuidedBsdf<B: LaneBsdf<F>> = B;
+
+    #[inline(always)]
+    fn wrap_bsdf<B: LaneBsdf<F>>(
+        &self,
+        _: &LaneSurface<F>,
+        _: F::Vector,
+        bsdf: impl FnOnce() -> B,
+    ) -> B {
+        bsdf()
+    }
+
+    #[inline(always)]
+    fn on_scatter(&mut self, _: &impl LaneBsdf<F>, _: F::Vector, _: &LaneBsdfSample<F>) {}
+
+    #[inline(always)]
+    fn survival(&mut self, _: F::Mask, throughput: &PathThroughput<F>, eta: F) -> F {
+        throughput.survival(eta)
+    }
+}
+
 impl PathHooks for () {
-    const PLAIN: bool = true;
+    const LANES: bool = true;
+
+    type Lanes<F: Lane> = ();
 
     type GuidedBsdf<B: Bsdf + Copy> = B;
 
@@ -74,4 +132,9 @@ impl PathHooks for () {
     ) -> B {
         bsdf()
     }
+    #[inline(always)]
+    fn in_lanes<'h, F: Lane>(_: impl Fn(usize) -> &'h Self) {}
+
+    #[inline(always)]
+    fn take_lane<F: Lane>(&mut self, (): &(), _: usize) {}
 }

@@ -31,9 +31,9 @@ impl<F: Lane> LaneConnection<F> {
 }
 
 /// Several vertices of one kind, at which light is sampled.
-pub(super) struct LaneVertex<'v, 'a, F: Lane, L: LaneShading + 'a> {
-    pub(super) lanes: &'a L,
-    pub(super) bsdf: &'v L::Bsdf<'a, F>,
+pub(super) struct LaneVertex<'v, F: Lane, L, B> {
+    pub(super) lanes: &'v L,
+    pub(super) bsdf: &'v B,
     pub(super) wavelengths: &'v [Wavelengths],
     pub(super) wo: F::Vector,
     pub(super) from: LaneReceiver<F>,
@@ -41,7 +41,7 @@ pub(super) struct LaneVertex<'v, 'a, F: Lane, L: LaneShading + 'a> {
     pub(super) before: PathThroughput<F>,
 }
 
-impl<F: Lane, L: LaneShading> LaneVertex<'_, '_, F, L> {
+impl<F: Lane, L: LaneShading, B: LaneBsdf<F>> LaneVertex<'_, F, L, B> {
     /// The connection to a light sample.
     #[inline(always)]
     pub(super) fn connect(&self, wanted: F::Mask, u_light: F, u: [F; 2]) -> LaneConnection<F> {

@@ -4,7 +4,7 @@
 //! paths meet. Few that are left over, and those at surfaces without a kind, are scattered one by one.
 
 use crate::path::batch::{Lanes, PathBatch};
-use crate::path::hooks::PathHooks;
+use crate::path::hooks::{LaneHooks, PathHooks};
 use crate::path::lane_vertex::LaneVertex;
 use crate::steps::candidates::Candidates;
 use crate::steps::dimensions::BounceSamples;
@@ -204,7 +204,10 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             wavelengths,
         };
         let wo = -F::Vector::of_lanes(|i| ray(i).direction);
-        let bsdf = lanes.bsdf::<F>(kind, |i| hit(i).shape, vertices, wo);
+        let mut hooks = C::in_lanes::<F>(|i| &path(i).hooks);
+        let bsdf = hooks.wrap_bsdf(&surface, wo, || {
+            lanes.bsdf::<F>(kind, |i| hit(i).shape, vertices, wo)
+        });
         let hemisphere = bsdf.hemisphere(wo);
         let before = PathThroughput::<F>::of_lanes(|i| &path(i).throughput);
         let at = LaneVertex {
@@ -263,8 +266,9 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         let mut after = before;
         after.scatter(sample.value, sample.chance);
         let eta = F::from_fn(|i| paths[index[i]].eta) * sample.eta;
-        let survival = after.survival(eta);
         let played = F::Mask::from_fn(|i| paths[index[i]].depth >= config.limits.rr_depth);
+        hooks.on_scatter(&bsdf, wo, &sample);
+        let survival = hooks.survival(played, &after, eta);
         let mut survived = after;
         survived.roulette(survival);
         after.beta = F::Spectrum::choose(played, survived.beta, after.beta);
@@ -285,6 +289,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
             path.throughput = after(i);
             path.eta = eta.lane(i);
             path.depth += 1;
+            path.hooks.take_lane(&hooks, i);
             if goes_on.lane(i) {
                 self.continued.push(index[i]);
                 self.next_rays.push(next(i, left[i]));

@@ -13,7 +13,7 @@
 
 use super::disk::{polar_to_square, square_to_polar};
 use core::f32::consts::{FRAC_1_PI, TAU};
-use etalon_math::lane::{Lane, Vector};
+use etalon_math::lane::{Lane, Select, Vector};
 use glam::{Vec2, Vec3};
 
 /// The density of [`square_to_uniform_hemisphere`] per steradian, above the horizon: 1/(2π).
@@ -42,14 +42,17 @@ fn uniform_cone<F: Lane>(u: [F; 2], one_minus_cos_max: F) -> F::Vector {
 /// The inverse of [`square_to_uniform_cone`], for a unit direction inside the cone.
 #[inline]
 pub fn uniform_cone_to_square(direction: Vec3, one_minus_cos_max: f32) -> Vec2 {
-    let point = direction.truncate();
-    let one_minus_cos = if direction.z > 0.0 {
-        point.length_squared() / (1.0 + direction.z)
-    } else {
-        1.0 - direction.z
-    };
-    let radius = (one_minus_cos / one_minus_cos_max).sqrt().min(1.0);
-    polar_to_square(radius, point)
+    cone_to_square::<f32>(direction, one_minus_cos_max).into()
+}
+
+/// The same in lanes.
+#[inline(always)]
+fn cone_to_square<F: Lane>(direction: F::Vector, one_minus_cos_max: F) -> [F; 2] {
+    let [x, y, z] = direction.xyz();
+    let above = (x * x + y * y) / (F::ONE + z);
+    let one_minus_cos = z.gt(F::ZERO).select(above, F::ONE - z);
+    let radius = (one_minus_cos / one_minus_cos_max).sqrt().min(F::ONE);
+    polar_to_square(radius, [x, y])
 }
 
 /// The density of [`square_to_uniform_cone`] per steradian, inside the cone:
@@ -86,5 +89,11 @@ pub fn uniform_sphere<F: Lane>(u: [F; 2]) -> F::Vector {
 /// The inverse of [`square_to_uniform_sphere`].
 #[inline]
 pub fn uniform_sphere_to_square(direction: Vec3) -> Vec2 {
-    uniform_cone_to_square(direction, 2.0)
+    sphere_to_square::<f32>(direction).into()
+}
+
+/// The same in lanes.
+#[inline(always)]
+pub fn sphere_to_square<F: Lane>(direction: F::Vector) -> [F; 2] {
+    cone_to_square(direction, F::splat(2.0))
 }

@@ -4,8 +4,7 @@
 //! is pₓ and the angle (π/4)·p_y/pₓ; otherwise the roles of the axes are exchanged.
 
 use core::f32::consts::FRAC_1_PI;
-use etalon_math::float::atan;
-use etalon_math::lane::{Int, Lane, Select, sin_cos_turns};
+use etalon_math::lane::{Int, Lane, Select, atan, sin_cos_turns};
 use glam::Vec2;
 
 /// The density of [`square_to_concentric_disk`] per unit of area, anywhere on the disk: 1/π.
@@ -50,28 +49,18 @@ fn exchanged<F: Lane>(numbers: [F; 2], mask: F::Int) -> [F; 2] {
 /// The point of the square that becomes `point`; the inverse of [`square_to_concentric_disk`].
 #[inline]
 pub fn concentric_disk_to_square(point: Vec2) -> Vec2 {
-    polar_to_square(point.length(), point)
+    polar_to_square(point.length(), point.to_array()).into()
 }
 
-/// As [`concentric_disk_to_square`], with a distance from the centre that is more precise than that
+/// As [`concentric_disk_to_square`] in lanes, with a distance from the centre that is more precise than that
 /// of `point`, of which only the direction is used.
-#[inline]
-pub(super) fn polar_to_square(radius: f32, point: Vec2) -> Vec2 {
-    let wide = point.x.abs() > point.y.abs();
-    let (greater, lesser) = if wide {
-        (point.x, point.y)
-    } else {
-        (point.y, point.x)
-    };
-    if greater == 0.0 {
-        return Vec2::splat(0.5);
-    }
+#[inline(always)]
+pub(super) fn polar_to_square<F: Lane>(radius: F, [x, y]: [F; 2]) -> [F; 2] {
+    let wide = y.abs().lt(x.abs());
+    let (greater, lesser) = wide.select((x, y), (y, x));
+    let centre = Lane::eq(greater, F::ZERO);
     let radius = radius.copysign(greater);
     let lesser = radius * (atan(lesser / greater) * (4.0 * FRAC_1_PI));
-    let p = if wide {
-        Vec2::new(radius, lesser)
-    } else {
-        Vec2::new(lesser, radius)
-    };
-    0.5 * (p + Vec2::ONE)
+    let p = wide.select([radius, lesser], [lesser, radius]);
+    centre.select([F::ZERO; 2], p).map(|p| (p + F::ONE) * 0.5)
 }

@@ -1,7 +1,7 @@
 //! The hemisphere about +z, with density proportional to the cosine:
 //! p(ω) = cos θ / π (Malley's method: a disk, uniform by area, lifted to the hemisphere).
 
-use super::disk::{polar_to_square, square_to_polar};
+use super::disk::{concentric_disk_to_square, square_to_polar};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::lane::{Lane, Vector};
 use glam::{Vec2, Vec3};
@@ -29,8 +29,7 @@ pub fn cosine_hemisphere<F: Lane>(u: [F; 2]) -> F::Vector {
 /// The inverse of [`square_to_cosine_hemisphere`], for a unit direction.
 #[inline]
 pub fn cosine_hemisphere_to_square(direction: Vec3) -> Vec2 {
-    let point = direction.truncate();
-    polar_to_square(point.length(), point)
+    concentric_disk_to_square(direction.truncate())
 }
 
 /// The density of [`square_to_cosine_hemisphere`] per steradian at a direction with the given

@@ -254,6 +254,11 @@ impl<F: Lane> LaneBxdf<F> for Principled<F> {
     fn sample_lanes(&self, wo: F::Vector, u_lobe: F, u: [F; 2]) -> LaneBsdfSample<F> {
         self.sample_in(wo, u_lobe, u, TransportMode::Radiance)
     }
+
+    #[inline(always)]
+    fn albedo_lanes(&self, _: F::Vector) -> F::Spectrum {
+        self.colour
+    }
 }
 
 impl Bxdf for Principled {
@@ -277,7 +282,7 @@ impl Bxdf for Principled {
         self.through > 0.0
     }
 
-    fn albedo(&self, _: Vec3) -> Vec4 {
-        self.colour
+    fn albedo(&self, wo: Vec3) -> Vec4 {
+        self.albedo_lanes(wo)
     }
 }
