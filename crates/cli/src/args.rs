@@ -1,5 +1,6 @@
 //! The command line.
 
+mod conform;
 mod denoise;
 mod estimators;
 mod farm;
@@ -9,6 +10,7 @@ mod preview;
 mod replay_address;
 mod replicates;
 
+pub use conform::{AskedArgs, ConformArgs, ConformCommand, ConformExportArgs, ConformRunArgs};
 pub use denoise::DenoiseArgs;
 pub use estimators::EstimatorsArgs;
 pub use farm::{FarmArgs, PathMap};
@@ -96,6 +98,7 @@ Examples:
   etalon replicates seed-*.exr -o mine.exr --spp 64 --program 'mine 1.0'
   etalon replicates a.hdr b.hdr c.hdr d.hdr -o mine.exr
   etalon compare mine.exr etalon.exr --report mine.html")]
+    #[command(visible_alias = "gather")]
     Replicates(ReplicatesArgs),
     /// Write the job files that render a scene on a cluster: for Slurm, Open Job Description or GNU parallel.
     ///
@@ -118,6 +121,19 @@ Examples:
   etalon compare a.exr b.exr
   etalon compare a.exr b.exr --report difference.html --bound 0.01")]
     Compare(CompareArgs),
+    /// Ask another renderer questions whose answers are known, and say whether it is right.
+    ///
+    /// Each question is a small scene whose picture is known in closed form, posed several times at random. A driver, a short
+    /// TOML file, says how the program is run. What is decided, and how to write a driver: docs/conform.md.
+    #[command(after_help = "\
+Exit codes: 0 the program agrees in all that it can express, 1 it differs, 2 something is broken, or bad input, 3 something is undecided.
+
+Examples:
+  etalon conform list
+  etalon conform truth sphere-light-small
+  etalon conform run --driver mitsuba
+  etalon conform export --to questions && render-them questions/jobs.jsonl && etalon conform judge questions")]
+    Conform(ConformArgs),
     /// Measure which of several estimators is better on a scene, and by how much.
     ///
     /// Every combination of the integrators, samplers, filters and light choosers takes part. Ratios are to the

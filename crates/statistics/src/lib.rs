@@ -11,6 +11,7 @@ pub mod atomic;
 pub mod bootstrap;
 pub mod boundaries;
 pub mod chi_squared;
+pub mod e_value;
 pub mod estimate;
 pub mod family;
 pub mod fault;

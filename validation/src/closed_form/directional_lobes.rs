@@ -15,8 +15,8 @@
 //!   that reflects a tenth this is less than 0.1 %.
 
 use super::light::{known, rgb};
-use super::pile_of_plates::reflectance;
 use crate::claim::Claim;
+use etalon_conform::truth::interfaces::reflectance;
 use etalon_math::float64::{exp, pow, tan};
 use etalon_render::judge::ExactImage;
 use std::f64::consts::{FRAC_1_PI, FRAC_1_SQRT_2, FRAC_PI_8, PI};

@@ -16,6 +16,7 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
+use etalon_conform::truth::coverage::part;
 use etalon_math::float64::tan;
 use etalon_render::judge::ExactImage;
 
@@ -61,23 +62,5 @@ fn tangent(claim: &Claim, [w, h]: [f64; 2]) -> Result<f64, String> {
         "smaller" => Ok(half.max(vertical)),
         "larger" => Ok(half.min(vertical)),
         other => Err(format!("there is no axis called `{other}`")),
-    }
-}
-
-/// How much of the pixel lies between two ends.
-fn part(pixel: u32, [first, last]: [f64; 2]) -> f64 {
-    let start = f64::from(pixel);
-    (last.min(start + 1.0) - first.max(start)).max(0.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::part;
-
-    #[test]
-    fn pixels_at_the_ends_are_covered_in_part() {
-        let covered: Vec<f64> = (0..4).map(|i| part(i, [0.75, 2.5])).collect();
-        assert_eq!(covered, [0.25, 1.0, 0.5, 0.0]);
-        assert_eq!(part(1, [1.25, 1.5]), 0.25);
     }
 }

@@ -5,13 +5,14 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
+use etalon_conform::truth::furnace::closed;
 use etalon_render::judge::ExactImage;
 
 /// The picture of a furnace of `reflectance` that emits `radiance`.
 pub fn picture(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let reflectance = claim.number("reflectance")?;
     let radiance = claim.number("radiance")?;
-    let colour = rgb(|_| radiance / (1.0 - reflectance));
+    let colour = rgb(|_| closed(radiance, reflectance));
     Ok(known(size, |_, _| colour))
 }
 

@@ -10,9 +10,9 @@
 //! Veach, *Robust Monte Carlo Methods for Light Transport Simulation*, 1997, section 5.2.)
 
 use super::light::{known, rgb};
-use super::pile_of_plates::reflectance;
-use super::pixels;
 use crate::claim::Claim;
+use etalon_conform::truth::interfaces::reflectance;
+use etalon_conform::truth::pixels;
 use etalon_math::float64::tan;
 use etalon_render::judge::ExactImage;
 

@@ -1,18 +1,11 @@
-//! The irradiance of the plane z = 0 under a convex or flat light of polygons.
-//!
-//! Every polygon that faces the point adds Lambert's sum over its edges,
-//! E = L/2 · Σ γᵢ n·(rᵢ × rᵢ₊₁)/|rᵢ × rᵢ₊₁| (*Photometria*, 1760; see [`super::irradiance`]):
-//! of a convex solid no such polygon hides another, and inner edges cancel. A polygon may be
-//! concave: it is never cut.
+//! The irradiance of the plane z = 0 under a convex or flat light of polygons, by Lambert's sum over their edges:
+//! [`etalon_conform::truth::polygon_lights`].
 
-use super::irradiance::{Irradiance, lambert};
+use super::irradiance::Irradiance;
 use crate::claim::Claim;
 use crate::folders;
-use glam::DVec3;
+use etalon_conform::truth::polygon_lights::{Polygon, polygons};
 use std::path::Path;
-
-/// Corners in a plane, counterclockwise as seen from where the light goes.
-type Polygon = Vec<[f64; 3]>;
 
 /// Under the mesh in the file `mesh`, or in that of the corners of `lamp`, raised by `height`.
 pub fn mesh(claim: &Claim) -> Result<Irradiance, String> {
@@ -21,35 +14,15 @@ pub fn mesh(claim: &Claim) -> Result<Irradiance, String> {
         Ok(lamp) => format!("{lamp}.obj"),
         Err(_) => claim.text("mesh")?.to_owned(),
     };
-    let mut polygons = read(&folder.join(file))?;
+    let mut mesh = read(&folder.join(file))?;
     let height = claim.number("height")?;
-    for corner in polygons.iter_mut().flatten() {
+    for corner in mesh.iter_mut().flatten() {
         corner[2] += height;
         if corner[2] <= 0.0 {
             return Err("the light must be above the plane".to_owned());
         }
     }
-    Ok(Box::new(move |x, y| per_radiance(&polygons, x, y)))
-}
-
-/// E/L at a point of the plane.
-fn per_radiance(polygons: &[Polygon], x: f64, y: f64) -> f64 {
-    let seen = polygons
-        .iter()
-        .map(|polygon| polygon.iter().map(|c| [c[0] - x, c[1] - y, c[2]]));
-    seen.map(Iterator::collect::<Polygon>)
-        .filter(|corners| faces(corners))
-        .map(|corners| (0.5 * lambert(&corners)).abs())
-        .sum()
-}
-
-/// Whether the polygon faces the origin.
-fn faces(corners: &[[f64; 3]]) -> bool {
-    // The sum of cross products around a polygon is twice its area, as a vector.
-    let next = corners.iter().cycle().skip(1);
-    let cross = |(&p, &q)| DVec3::from_array(p).cross(DVec3::from_array(q));
-    let normal: DVec3 = corners.iter().zip(next).map(cross).sum();
-    normal.dot(DVec3::from_array(corners[0])) < 0.0
+    Ok(Box::new(move |x, y| polygons(&mesh, [x, y])))
 }
 
 /// Reads an OBJ file of `v` and `f` lines of plain numbers.
@@ -141,11 +114,11 @@ mod tests {
     /// The mesh of a claim, 1.2 above the plane.
     fn raised(name: &str) -> Vec<Polygon> {
         let path = folders::scenes().join("irradiance-mesh").join(name);
-        let mut polygons = read(&path).expect("the mesh of a claim");
-        for corner in polygons.iter_mut().flatten() {
+        let mut mesh = read(&path).expect("the mesh of a claim");
+        for corner in mesh.iter_mut().flatten() {
             corner[2] += 1.2;
         }
-        polygons
+        mesh
     }
 
     /// Mutant rejected: a normal of the first three corners, which may be those of a notch.
@@ -154,7 +127,7 @@ mod tests {
         let (outline, star) = (raised("outline.obj"), raised("star.obj"));
         assert_eq!(outline.len(), 1);
         for [x, y] in [[0.1, 0.0], [0.9, -0.4], [-1.6, 1.9]] {
-            let [found, expected] = [&outline, &star].map(|mesh| per_radiance(mesh, x, y));
+            let [found, expected] = [&outline, &star].map(|mesh| polygons(mesh, [x, y]));
             assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
         }
     }
@@ -165,29 +138,12 @@ mod tests {
             let triangles = raised(name);
             for [x, y] in [[0.1, 0.0], [0.9, -0.4], [-1.6, 1.9]] {
                 let expected = by_definition(&triangles, x, y);
-                let found = per_radiance(&triangles, x, y);
+                let found = polygons(&triangles, [x, y]);
                 assert!(
                     (found / expected - 1.0).abs() < 1e-4,
                     "{name}: {found} {expected}"
                 );
             }
         }
-    }
-
-    #[test]
-    fn two_triangles_are_a_rectangle() {
-        // A parallel unit square at unit distance, seen from below its corner: E/L = √½ atan √½
-        // (Howell's configuration B-3 with A = B = 1).
-        let square = [
-            vec![[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 1.0, 1.0]],
-            vec![[0.0, 0.0, 1.0], [1.0, 1.0, 1.0], [1.0, 0.0, 1.0]],
-        ];
-        let half = 0.5f64.sqrt();
-        let expected = half * etalon_math::float64::atan(half);
-        let found = per_radiance(&square, 0.0, 0.0);
-        assert!((found - expected).abs() < 1e-14, "{found} {expected}");
-        // Its back gives nothing.
-        let turned = square.map(|triangle| triangle.into_iter().rev().collect());
-        assert_eq!(per_radiance(&turned, 0.0, 0.0), 0.0);
     }
 }

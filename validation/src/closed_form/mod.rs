@@ -23,7 +23,6 @@ pub mod mirror_room;
 pub mod narrow_sky;
 pub mod out_of_focus;
 pub mod pile_of_plates;
-pub mod pixels;
 pub mod prism;
 pub mod rgb_patches;
 pub mod slab;

@@ -8,8 +8,8 @@
 //! A plane sends back ρ L.
 
 use super::light::{decoded, known, rgb};
-use super::pixels;
 use crate::claim::Claim;
+use etalon_conform::truth::pixels;
 use etalon_render::judge::ExactImage;
 
 /// The bytes of `scenes/wrapped-bitmap/texels.png`.

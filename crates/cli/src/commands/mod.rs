@@ -2,6 +2,7 @@
 
 mod again;
 pub mod compare;
+pub mod conform;
 pub mod convert;
 mod delivery;
 pub mod denoise;
@@ -41,6 +42,7 @@ pub fn run(command: &Command) -> ExitCode {
         Command::Replicates(args) => replicates::run(args),
         Command::Farm(args) => farm::run(args),
         Command::Compare(args) => compare::run(args),
+        Command::Conform(args) => conform::run(args),
         Command::Estimators(args) => estimators::run(args),
         Command::Denoise(args) => denoise::run(args),
         Command::Convert(args) => convert::run(args),

@@ -13,9 +13,15 @@ fn page(name: &str) -> String {
     std::fs::read_to_string(root().join(name)).expect("the page is there")
 }
 
+/// The arguments of a command, and of the commands within it.
+fn arguments(command: &clap::Command) -> impl Iterator<Item = &clap::Arg> {
+    let within = command.get_subcommands().flat_map(|c| c.get_arguments());
+    command.get_arguments().chain(within)
+}
+
 /// The long options of a command, with their dashes; that it has help goes without saying.
 fn options(command: &clap::Command) -> impl Iterator<Item = String> {
-    let shown = command.get_arguments().filter(|a| !a.is_hide_set());
+    let shown = arguments(command).filter(|a| !a.is_hide_set());
     let names = shown.filter_map(|argument| argument.get_long());
     names
         .filter(|name| !["help", "version"].contains(name))
@@ -124,7 +130,7 @@ fn defaults_of_the_page_are_those_of_help() {
         if command.get_name() == "farm" {
             continue;
         }
-        for argument in command.get_arguments() {
+        for argument in arguments(command) {
             let (Some(name), [default]) = (argument.get_long(), argument.get_default_values())
             else {
                 continue;

@@ -8,6 +8,7 @@ mod bad_scenes;
 mod blocks;
 mod command_line;
 mod compare;
+mod conform;
 mod convert;
 mod denoise;
 mod determinism;

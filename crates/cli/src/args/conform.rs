@@ -1,0 +1,146 @@
+//! Arguments of `conform`.
+
+use crate::arg_values::whole;
+use clap::{Args, Subcommand, ValueEnum};
+use etalon_conform::mitsuba_xml::Mode;
+use etalon_conform::tier::Tier;
+use std::path::PathBuf;
+
+/// Arguments of `conform`.
+#[derive(Debug, Args)]
+pub struct ConformArgs {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: ConformCommand,
+}
+
+/// What `conform` does.
+#[derive(Debug, Subcommand)]
+pub enum ConformCommand {
+    /// Name the questions and the drivers that there are.
+    List,
+    /// Say what is true of a question: its formula, its source and its picture.
+    Truth {
+        /// The question's name.
+        question: String,
+    },
+    /// Have a program answer, and judge its answers.
+    #[command(after_help = "\
+Exit codes: 0 it agrees in all that it can express, 1 it differs, 2 something is broken, or bad input, 3 something is undecided.
+
+Examples:
+  etalon conform run --driver mitsuba
+  etalon conform run --driver mine.toml --tier quick --only 'sphere-*'
+  etalon conform run --driver mine.toml -o today --baseline last.json    # in a project's CI")]
+    Run(ConformRunArgs),
+    /// Write the scenes and a list of pictures, for a program that renders elsewhere.
+    Export(ConformExportArgs),
+    /// Judge the pictures in a folder that `export` or `run` made.
+    Judge {
+        /// The folder.
+        folder: PathBuf,
+        /// The program's name in full.
+        #[arg(long, default_value = "another program")]
+        program: String,
+    },
+    /// Say what changed between two reports; exit code 1 if anything became worse.
+    Diff {
+        /// The older report.
+        old: PathBuf,
+        /// The newer one.
+        new: PathBuf,
+    },
+}
+
+/// What is asked, and how much.
+#[derive(Debug, Args)]
+pub struct AskedArgs {
+    /// How much is rendered.
+    #[arg(long, value_name = "TIER", default_value = "standard")]
+    pub tier: TierName,
+    /// Only questions whose names fit; `*` stands for anything.
+    #[arg(long, value_name = "GLOB", default_value = "*")]
+    pub only: String,
+    /// The seed of all poses.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub pose_seed: u64,
+    /// What the program leaves out: `measure` all that biases (this decides whether it is right), `shipped` nothing (this tells).
+    #[arg(long, value_name = "MODE", default_value = "measure")]
+    pub mode: ModeName,
+}
+
+/// Arguments of `conform run`.
+#[derive(Debug, Args)]
+pub struct ConformRunArgs {
+    /// A driver: the name of one that comes with Etalon, or a TOML file.
+    #[arg(long, value_name = "NAME|FILE.toml")]
+    pub driver: String,
+    /// What is asked.
+    #[command(flatten)]
+    pub asked: AskedArgs,
+    /// The folder for scenes, pictures and the report [default: conform-NAME, in this folder].
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// An earlier report: only what is worse than it counts.
+    #[arg(long, value_name = "OLD.json")]
+    pub baseline: Option<PathBuf>,
+    /// Pictures at a time, each with one thread [default: one per processor].
+    #[arg(long, value_name = "N", value_parser = whole::<1, 1024>, allow_negative_numbers = true)]
+    pub workers: Option<u32>,
+    /// The longest that a picture may take (s).
+    #[arg(long, value_name = "SECONDS", default_value_t = 120, value_parser = whole::<1, 86400>, allow_negative_numbers = true)]
+    pub limit: u32,
+    /// What runs drivers in Python [default: `ETALON_PYTHON`, or python3].
+    #[arg(long, value_name = "PROGRAM")]
+    pub python: Option<PathBuf>,
+    /// Say nothing but errors.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `conform export`.
+#[derive(Debug, Args)]
+pub struct ConformExportArgs {
+    /// The folder to write to.
+    #[arg(long, value_name = "DIR")]
+    pub to: PathBuf,
+    /// What is asked.
+    #[command(flatten)]
+    pub asked: AskedArgs,
+}
+
+/// The tiers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TierName {
+    /// The questions of few samples, 16 pictures of each.
+    Quick,
+    /// All, 32 pictures of each; four times as many of what is undecided.
+    Standard,
+}
+
+impl From<TierName> for Tier {
+    fn from(name: TierName) -> Self {
+        match name {
+            TierName::Quick => Self::Quick,
+            TierName::Standard => Self::Standard,
+        }
+    }
+}
+
+/// The modes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ModeName {
+    /// Without all that biases.
+    Measure,
+    /// With the program's defaults.
+    Shipped,
+}
+
+impl From<ModeName> for Mode {
+    fn from(name: ModeName) -> Self {
+        match name {
+            ModeName::Measure => Self::Measure,
+            ModeName::Shipped => Self::Shipped,
+        }
+    }
+}

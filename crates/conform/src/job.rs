@@ -1,0 +1,59 @@
+//! A picture to be rendered.
+
+use crate::driver::PictureFormat;
+use crate::mitsuba_xml::Mode;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A picture to be rendered: a question in a pose, with a seed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Job {
+    /// The question's name.
+    pub question: String,
+    /// The number of the pose.
+    pub pose: u32,
+    /// Samples per pixel.
+    pub samples: u32,
+    /// The seed of the program.
+    pub seed: u32,
+    /// The format of the picture.
+    pub picture: PictureFormat,
+}
+
+impl Job {
+    /// Name of its scene's files, without their ending.
+    pub fn scene_name(&self) -> String {
+        format!("{}-pose{}", self.question, self.pose)
+    }
+
+    /// Its picture within a folder.
+    pub fn picture(&self, folder: &Path) -> PathBuf {
+        let (samples, seed) = (self.samples, self.seed);
+        let ending = self.picture.ending();
+        let name = format!("{}-n{samples}-seed{seed}.{ending}", self.scene_name());
+        folder.join("pictures").join(name)
+    }
+
+    /// What stands in braces in a driver's command.
+    pub(crate) fn values(
+        &self,
+        folder: &Path,
+        threads: u32,
+        mode: Mode,
+    ) -> BTreeMap<&'static str, String> {
+        let path = |path: PathBuf| path.display().to_string();
+        let scene = |ending: &str| {
+            let file = format!("{}.{ending}", self.scene_name());
+            path(folder.join("scenes").join(file))
+        };
+        BTreeMap::from([
+            ("scene", scene("json")),
+            ("xml", scene("xml")),
+            ("samples", self.samples.to_string()),
+            ("seed", self.seed.to_string()),
+            ("threads", threads.to_string()),
+            ("mode", mode.name().to_owned()),
+            ("out", path(self.picture(folder))),
+        ])
+    }
+}

@@ -1,0 +1,72 @@
+//! What a program answered: a picture as luminances.
+
+use etalon_images::{exr, raster_file};
+use std::path::Path;
+
+/// Luminance of linear Rec. 709.
+const LUMINANCE: [f64; 3] = [0.212_639, 0.715_169, 0.072_192];
+
+/// A picture of one pose with one seed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replicate {
+    /// The number of the pose.
+    pub pose: u32,
+    /// The program's seed.
+    pub seed: u32,
+    /// The luminance of each pixel, the top row first.
+    pub luminance: Vec<f64>,
+}
+
+impl Replicate {
+    /// Reads the colour of an EXR or PFM of `pixels` rows and columns.
+    ///
+    /// # Errors
+    /// What is wrong with it, in one sentence.
+    pub fn read(path: &Path, pixels: u32, pose: u32, seed: u32) -> Result<Self, String> {
+        let image = match path.extension().is_some_and(|ending| ending == "pfm") {
+            true => raster_file::read(path).map(|raster| raster.to_image()),
+            false => exr::read(path).map(|document| document.flatten().0),
+        };
+        let image = image.map_err(|error| error.to_string())?;
+        let size = [image.width(), image.height()];
+        if size != [pixels as usize; 2] {
+            let [width, height] = size;
+            return Err(format!(
+                "a picture of {width} × {height} pixels, where {pixels} × {pixels} were asked for"
+            ));
+        }
+        let colour = image
+            .needed_colour(path)
+            .map_err(|error| error.to_string())?;
+        let [r, g, b] = &colour.planes;
+        let luminance: Vec<f64> = (0..r.len())
+            .map(|i| {
+                let rgb = [r[i], g[i], b[i]].map(f64::from);
+                rgb.iter()
+                    .zip(LUMINANCE)
+                    .map(|(c, weight)| c * weight)
+                    .sum()
+            })
+            .collect();
+        if let Some(index) = luminance.iter().position(|value| !value.is_finite()) {
+            let [column, row] = [index % size[0], index / size[0]];
+            return Err(format!("pixel ({column}, {row}) is not finite"));
+        }
+        Ok(Self {
+            pose,
+            seed,
+            luminance,
+        })
+    }
+
+    /// The mean of all pixels.
+    pub fn mean(&self) -> f64 {
+        self.luminance.iter().sum::<f64>() / self.luminance.len() as f64
+    }
+
+    /// Whether both have the same bits.
+    pub fn is_copy_of(&self, other: &Self) -> bool {
+        let pairs = self.luminance.iter().zip(&other.luminance);
+        pairs.into_iter().all(|(a, b)| a.to_bits() == b.to_bits())
+    }
+}

@@ -1,0 +1,161 @@
+//! What was found of a program, as JSON and as a table.
+
+use crate::judge::{Finding, Verdict};
+use crate::suite::Plan;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// The version of the JSON.
+pub const VERSION: u32 = 1;
+
+/// What was found of a program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Report {
+    /// [`VERSION`].
+    pub version: u32,
+    /// The program's name in full.
+    pub program: String,
+    /// What was asked.
+    pub plan: Plan,
+    /// δ.
+    pub bound: f64,
+    /// What its driver says of units.
+    pub conventions: BTreeMap<String, serde_json::Value>,
+    /// A row for each question.
+    pub rows: Vec<Row>,
+}
+
+/// What was found of a question.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Its name.
+    pub question: String,
+    /// What was found.
+    #[serde(flatten)]
+    pub finding: Finding,
+}
+
+/// How a run ended, by the worst of its rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Conclusion {
+    /// The program agrees in all that it can express.
+    Agrees,
+    /// It differs.
+    Differs,
+    /// Something could not be judged.
+    Broken,
+    /// Something is undecided.
+    Undecided,
+}
+
+impl Conclusion {
+    /// The exit code, as that of `cargo xtask validate`.
+    pub fn exit_code(self) -> u8 {
+        match self {
+            Self::Agrees => 0,
+            Self::Differs => 1,
+            Self::Broken => 2,
+            Self::Undecided => 3,
+        }
+    }
+}
+
+impl Verdict {
+    /// In a word or two.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Agrees => "agrees",
+            Self::Differs => "differs",
+            Self::Undecided(_) => "undecided",
+            Self::NotSupported(_) => "not supported",
+            Self::Broken(_) => "broken",
+        }
+    }
+}
+
+impl Report {
+    /// How the run ended.
+    pub fn conclusion(&self) -> Conclusion {
+        let any = |word: &str| {
+            self.rows
+                .iter()
+                .any(|row| row.finding.verdict.word() == word)
+        };
+        if any("differs") {
+            Conclusion::Differs
+        } else if any("broken") {
+            Conclusion::Broken
+        } else if any("undecided") {
+            Conclusion::Undecided
+        } else {
+            Conclusion::Agrees
+        }
+    }
+
+    /// As a table, with a line of counts.
+    pub fn table(&self) -> String {
+        let width = self
+            .rows
+            .iter()
+            .map(|row| row.question.len())
+            .max()
+            .unwrap_or(0);
+        let mut text = format!(
+            "{} ({}), {} questions, within {} %\n\n",
+            self.program,
+            self.plan.program_version,
+            self.rows.len(),
+            100.0 * self.bound
+        );
+        for row in &self.rows {
+            let finding = &row.finding;
+            let value = match (finding.bias, finding.interval) {
+                (Some(bias), Some([low, high])) => {
+                    format!("{:+9.3} % ± {:.3}", 100.0 * bias, 50.0 * (high - low))
+                }
+                (Some(bias), None) => format!("{:+9.3} %", 100.0 * bias),
+                _ => String::new(),
+            };
+            let _ = write!(
+                text,
+                "{:width$}  {:13}  {value:24}",
+                row.question,
+                finding.verdict.word()
+            );
+            let reason = match &finding.verdict {
+                Verdict::Undecided(why) | Verdict::NotSupported(why) | Verdict::Broken(why) => {
+                    Some(why.clone())
+                }
+                Verdict::Differs => finding.suspicion.clone().or_else(|| {
+                    let (column, row, _) = finding.tile?;
+                    Some(format!("most in the tile of column {column}, row {row}"))
+                }),
+                Verdict::Agrees => None,
+            };
+            let _ = writeln!(text, "{}", reason.unwrap_or_default().trim_end());
+        }
+        let count = |word: &str| {
+            let of = |row: &&Row| row.finding.verdict.word() == word;
+            self.rows.iter().filter(of).count()
+        };
+        let words = ["agrees", "differs", "undecided", "not supported", "broken"];
+        let counts = words.map(|word| (count(word), word));
+        let counts = counts.iter().filter(|(count, _)| *count > 0);
+        let counts: Vec<_> = counts
+            .map(|(count, word)| format!("{count} {word}"))
+            .collect();
+        let _ = writeln!(text, "\n{}", counts.join(", "));
+        text.lines()
+            .map(str::trim_end)
+            .collect::<Vec<_>>()
+            .join("\n")
+            + "\n"
+    }
+
+    /// As JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("names and numbers")
+    }
+}

@@ -1,0 +1,360 @@
+//! A scene that any renderer can be asked to render: resolved, in metres and watts, without transforms or defaults.
+//!
+//! All is grey: a number stands for every wavelength, or for red, green and blue alike. Axes are right-handed. The picture is
+//! square; its first row is the top one. Radiance is in any unit that goes through the whole scene; so are intensity (that
+//! unit times m²) and irradiance (times sr).
+
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// The version of the format.
+pub const VERSION: u32 = 1;
+
+/// A point or a direction as JSON has it.
+pub type Triple = [f64; 3];
+
+/// A scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// [`VERSION`].
+    pub version: u32,
+    /// The question that it poses.
+    pub question: String,
+    /// Rows and columns of the picture.
+    pub pixels: u32,
+    /// The camera.
+    pub camera: Camera,
+    /// What has a surface.
+    pub objects: Vec<Object>,
+    /// Lights without extent.
+    pub lights: Vec<Light>,
+    /// What surrounds all, if anything.
+    pub sky: Option<Sky>,
+}
+
+/// A camera. Each pixel is the mean of its square of the film (a box filter).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Camera {
+    /// Where it stands.
+    pub origin_m: Triple,
+    /// What it looks at.
+    pub target_m: Triple,
+    /// A direction that points up in the picture.
+    pub up: Triple,
+    /// How it projects.
+    pub projection: Projection,
+}
+
+/// How a camera projects.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, tag = "kind", rename_all = "snake_case")]
+pub enum Projection {
+    /// Parallel rays.
+    Orthographic {
+        /// Width and height of what is seen.
+        width_m: f64,
+    },
+    /// Rays through a point; the radiance that arrives is shown, without a factor for the angle.
+    Pinhole {
+        /// The angle from the left to the right edge.
+        field_of_view_degrees: f64,
+    },
+    /// Rays through a round lens, evenly over it.
+    ThinLens {
+        /// The angle from the left to the right edge, seen from the middle of the lens.
+        field_of_view_degrees: f64,
+        /// Radius of the lens.
+        lens_radius_m: f64,
+        /// Distance of the plane that is sharp.
+        focus_distance_m: f64,
+    },
+}
+
+/// A surface, or a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Object {
+    /// Its form.
+    pub shape: Shape,
+    /// How it scatters light.
+    pub material: Material,
+    /// Radiance that it emits from its outer side, evenly in all directions; 0 for none.
+    pub emitted_radiance: f64,
+    /// What is inside.
+    pub interior: Option<Medium>,
+}
+
+/// A form.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, tag = "kind", rename_all = "snake_case")]
+pub enum Shape {
+    /// A sphere.
+    Sphere {
+        /// Its centre.
+        center_m: Triple,
+        /// Its radius.
+        radius_m: f64,
+        /// Whether its outer side, which emits, is the one toward the centre.
+        inward: bool,
+    },
+    /// A parallelogram; its outer side is that of the normal u × v.
+    Quad {
+        /// Its centre.
+        center_m: Triple,
+        /// From its centre to the middle of a side.
+        half_u_m: Triple,
+        /// From its centre to the middle of the next side.
+        half_v_m: Triple,
+    },
+    /// A box of three orthogonal half axes, right-handed.
+    Box {
+        /// Its centre.
+        center_m: Triple,
+        /// From its centre to the middles of three faces.
+        half_axes_m: [Triple; 3],
+    },
+    /// Flat triangles; the outer side of each is the one from which its corners turn to the left.
+    Mesh {
+        /// The corners.
+        positions_m: Vec<Triple>,
+        /// Three indices of corners for each triangle.
+        triangles: Vec<[u32; 3]>,
+    },
+}
+
+/// How a surface scatters light.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, tag = "kind", rename_all = "snake_case")]
+pub enum Material {
+    /// Lambert's: the fraction of light that is reflected, from either side.
+    Diffuse {
+        /// The fraction.
+        reflectance: f64,
+    },
+    /// Reflects a fraction that does not depend on the angle.
+    Mirror {
+        /// The fraction.
+        reflectance: f64,
+    },
+    /// A smooth metal in air.
+    Conductor {
+        /// Real part of the index of refraction.
+        n: f64,
+        /// Imaginary part.
+        k: f64,
+    },
+    /// Smooth clear glass in air, without polarisation.
+    Glass {
+        /// Its index of refraction.
+        n: f64,
+    },
+    /// No surface at all: the border of a medium.
+    Nothing,
+}
+
+/// What scatters and absorbs within a body, evenly in all directions.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Medium {
+    /// Absorption coefficient.
+    pub absorption_per_m: f64,
+    /// Scattering coefficient.
+    pub scattering_per_m: f64,
+}
+
+/// A light without extent.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, tag = "kind", rename_all = "snake_case")]
+pub enum Light {
+    /// Shines from a point, evenly in all directions.
+    Point {
+        /// The point.
+        position_m: Triple,
+        /// Its intensity.
+        intensity: f64,
+    },
+    /// Shines from a point into a cone: evenly up to one angle, not at all beyond another. Nothing is asked of what is between.
+    Spot {
+        /// The point.
+        position_m: Triple,
+        /// A point on the axis.
+        target_m: Triple,
+        /// Its intensity within the first angle.
+        intensity: f64,
+        /// The first angle, from the axis.
+        even_to_degrees: f64,
+        /// The second.
+        dark_from_degrees: f64,
+    },
+    /// Parallel light.
+    Sun {
+        /// Where the light goes.
+        direction: Triple,
+        /// Irradiance across it.
+        irradiance: f64,
+    },
+}
+
+/// What surrounds all.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, tag = "kind", rename_all = "snake_case")]
+pub enum Sky {
+    /// The same radiance in all directions.
+    Even {
+        /// That radiance.
+        radiance: f64,
+    },
+    /// A radiance for each cell of a net of meridians and parallels, the same all over the cell: nothing is interpolated.
+    ///
+    /// Row i has the angles from the zenith from iπ/rows to (i + 1)π/rows; column j the azimuths from j 2π/columns to
+    /// (j + 1) 2π/columns, counted from the meridian toward zenith × meridian.
+    Map {
+        /// The direction of the first row's upper edge.
+        zenith: Triple,
+        /// The direction, at a right angle to the zenith, of the first column's edge.
+        meridian: Triple,
+        /// Cells from the zenith to its opposite.
+        rows: u32,
+        /// Cells all around.
+        columns: u32,
+        /// Radiance toward the scene from each cell, row by row.
+        radiance: Vec<f64>,
+    },
+}
+
+impl Scene {
+    /// The scene turned, grown and moved together with its camera: the picture stays the same.
+    #[must_use]
+    pub fn posed(&self, pose: &crate::pose::Pose) -> Self {
+        let point = |p: Triple| pose.point(p.into()).to_array();
+        let vector = |v: Triple| pose.vector(v.into()).to_array();
+        let direction = |v: Triple| pose.direction(v.into()).to_array();
+        let scale = pose.scale;
+        let projection = match self.camera.projection.clone() {
+            Projection::Orthographic { width_m } => Projection::Orthographic {
+                width_m: width_m * scale,
+            },
+            Projection::ThinLens {
+                field_of_view_degrees,
+                lens_radius_m,
+                focus_distance_m,
+            } => Projection::ThinLens {
+                field_of_view_degrees,
+                lens_radius_m: lens_radius_m * scale,
+                focus_distance_m: focus_distance_m * scale,
+            },
+            pinhole @ Projection::Pinhole { .. } => pinhole,
+        };
+        let shape = |shape: &Shape| match shape {
+            Shape::Sphere {
+                center_m,
+                radius_m,
+                inward,
+            } => Shape::Sphere {
+                center_m: point(*center_m),
+                radius_m: radius_m * scale,
+                inward: *inward,
+            },
+            Shape::Quad {
+                center_m,
+                half_u_m,
+                half_v_m,
+            } => Shape::Quad {
+                center_m: point(*center_m),
+                half_u_m: vector(*half_u_m),
+                half_v_m: vector(*half_v_m),
+            },
+            Shape::Box {
+                center_m,
+                half_axes_m,
+            } => Shape::Box {
+                center_m: point(*center_m),
+                half_axes_m: half_axes_m.map(vector),
+            },
+            Shape::Mesh {
+                positions_m,
+                triangles,
+            } => Shape::Mesh {
+                positions_m: positions_m.iter().copied().map(point).collect(),
+                triangles: triangles.clone(),
+            },
+        };
+        let light = |light: &Light| match *light {
+            Light::Point {
+                position_m,
+                intensity,
+            } => Light::Point {
+                position_m: point(position_m),
+                intensity: intensity * scale * scale,
+            },
+            Light::Spot {
+                position_m,
+                target_m,
+                intensity,
+                even_to_degrees,
+                dark_from_degrees,
+            } => Light::Spot {
+                position_m: point(position_m),
+                target_m: point(target_m),
+                intensity: intensity * scale * scale,
+                even_to_degrees,
+                dark_from_degrees,
+            },
+            Light::Sun {
+                direction: toward,
+                irradiance,
+            } => Light::Sun {
+                direction: direction(toward),
+                irradiance,
+            },
+        };
+        let object = |object: &Object| Object {
+            shape: shape(&object.shape),
+            interior: object.interior.map(|medium| Medium {
+                absorption_per_m: medium.absorption_per_m / scale,
+                scattering_per_m: medium.scattering_per_m / scale,
+            }),
+            ..object.clone()
+        };
+        let sky = |sky: &Sky| match sky.clone() {
+            Sky::Map {
+                zenith,
+                meridian,
+                rows,
+                columns,
+                radiance,
+            } => Sky::Map {
+                zenith: direction(zenith),
+                meridian: direction(meridian),
+                rows,
+                columns,
+                radiance,
+            },
+            even @ Sky::Even { .. } => even,
+        };
+        Self {
+            camera: Camera {
+                origin_m: point(self.camera.origin_m),
+                target_m: point(self.camera.target_m),
+                up: direction(self.camera.up),
+                projection,
+            },
+            objects: self.objects.iter().map(object).collect(),
+            lights: self.lights.iter().map(light).collect(),
+            sky: self.sky.as_ref().map(sky),
+            ..self.clone()
+        }
+    }
+
+    /// The scene as JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("numbers and names")
+    }
+}
+
+/// The unit normal of a quad.
+pub fn quad_normal(half_u: Triple, half_v: Triple) -> DVec3 {
+    DVec3::from(half_u).cross(half_v.into()).normalize()
+}

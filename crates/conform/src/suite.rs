@@ -1,0 +1,301 @@
+//! A run: what is asked of a program, where its scenes and pictures are, and what was found so far.
+
+use crate::driver::{Driver, PictureFormat};
+use crate::job::Job;
+use crate::judge::{Finding, Rules, Verdict, judge};
+use crate::mitsuba_xml::{self, Mode};
+use crate::question::Question;
+use crate::replicate::Replicate;
+use crate::report::{Report, Row};
+use crate::runner::{self, Manner, Outcome};
+use crate::tier::Tier;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+/// What a run is; it stands in `plan.json` of its folder.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// The version of this file.
+    pub version: u32,
+    /// The seed of all poses.
+    pub suite_seed: u64,
+    /// The tier's name.
+    pub tier: String,
+    /// `measure` or `shipped`.
+    pub mode: String,
+    /// The driver's name.
+    pub program: String,
+    /// What the program says its version is.
+    pub program_version: String,
+    /// Whether every picture has a pose of its own.
+    pub pose_each: bool,
+    /// The format of pictures.
+    pub picture: PictureFormat,
+    /// The names of the questions.
+    pub questions: Vec<String>,
+}
+
+/// A run in its folder.
+pub struct Suite {
+    /// The folder, an absolute path.
+    pub folder: PathBuf,
+    /// What it is.
+    pub plan: Plan,
+    questions: Vec<&'static Question>,
+    tier: Tier,
+    mode: Mode,
+    /// What is known of questions without pictures.
+    refusals: BTreeMap<String, Verdict>,
+}
+
+/// How a run is made.
+pub struct Running<'a> {
+    /// Pictures at a time.
+    pub workers: usize,
+    /// The longest that one may take.
+    pub limit: Duration,
+    /// Called before a look with the number of its pictures.
+    pub begin: &'a (dyn Fn(u32, usize) + Sync),
+    /// Called when a picture is there, or cannot be had.
+    pub done: &'a (dyn Fn(&Job, &Outcome) + Sync),
+    /// Set when it is to end soon.
+    pub stop: &'a AtomicBool,
+}
+
+impl Plan {
+    /// The version of the file.
+    pub const VERSION: u32 = 1;
+
+    /// The questions of a tier whose names fit, to a program that takes seeds and is not known yet.
+    pub fn new(suite_seed: u64, tier: Tier, mode: Mode, fits: impl Fn(&str) -> bool) -> Self {
+        let asked = (crate::questions::ALL.iter())
+            .filter(|question| tier.asks(question) && fits(question.name));
+        Self {
+            version: Self::VERSION,
+            suite_seed,
+            tier: tier.name().to_owned(),
+            mode: mode.name().to_owned(),
+            program: "elsewhere".to_owned(),
+            program_version: String::new(),
+            pose_each: false,
+            picture: PictureFormat::Exr,
+            questions: asked.map(|question| question.name.to_owned()).collect(),
+        }
+    }
+
+    /// The same for a driver's program, of the version that it says.
+    #[must_use]
+    pub fn of(self, driver: &Driver, program_version: String) -> Self {
+        Self {
+            program: driver.description.name.clone(),
+            program_version,
+            pose_each: !driver.description.seed,
+            picture: driver.description.picture,
+            ..self
+        }
+    }
+}
+
+/// Poses of a question where seeds differ.
+const POSES: u32 = 2;
+
+impl Suite {
+    /// Begins a run in a folder, or goes on with the same run there; writes its scenes.
+    ///
+    /// # Errors
+    /// If the folder holds another run, or cannot be written.
+    pub fn create(folder: &Path, plan: Plan) -> Result<Self, String> {
+        let folder = std::path::absolute(folder).map_err(|e| at(folder, &e))?;
+        let file = folder.join("plan.json");
+        if file.exists() {
+            let before = read_plan(&file)?;
+            if before != plan {
+                return Err(format!(
+                    "{} holds another run ({} {}, tier {}, {} questions): give another folder",
+                    folder.display(),
+                    before.program,
+                    before.program_version,
+                    before.tier,
+                    before.questions.len()
+                ));
+            }
+        }
+        let suite = Self::of(folder, plan)?;
+        suite.write()?;
+        Ok(suite)
+    }
+
+    /// The run in a folder.
+    ///
+    /// # Errors
+    /// If there is none, or it is of another version of this program.
+    pub fn open(folder: &Path) -> Result<Self, String> {
+        let folder = std::path::absolute(folder).map_err(|e| at(folder, &e))?;
+        let plan = read_plan(&folder.join("plan.json"))?;
+        Self::of(folder, plan)
+    }
+
+    fn of(folder: PathBuf, plan: Plan) -> Result<Self, String> {
+        let tier = Tier::ALL.iter().find(|(name, _)| *name == plan.tier);
+        let (_, tier) = tier.ok_or_else(|| format!("there is no tier `{}`", plan.tier))?;
+        let modes = [Mode::Measure, Mode::Shipped];
+        let mode = modes.into_iter().find(|mode| mode.name() == plan.mode);
+        let mode = mode.ok_or_else(|| format!("there is no mode `{}`", plan.mode))?;
+        let question = |name: &String| {
+            crate::questions::by_name(name).ok_or_else(|| format!("there is no question `{name}`"))
+        };
+        let questions = plan.questions.iter().map(question);
+        Ok(Self {
+            questions: questions.collect::<Result<_, _>>()?,
+            tier: *tier,
+            mode,
+            folder,
+            plan,
+            refusals: BTreeMap::new(),
+        })
+    }
+
+    /// Writes the plan and the scenes of all poses, as JSON and as XML.
+    fn write(&self) -> Result<(), String> {
+        let scenes = self.folder.join("scenes");
+        for folder in [&scenes, &self.folder.join("pictures")] {
+            fs::create_dir_all(folder).map_err(|e| at(folder, &e))?;
+        }
+        for question in &self.questions {
+            for pose in 0..self.poses() {
+                let (scene, _) = question.posed(self.plan.suite_seed, pose);
+                let name = format!("{}-pose{pose}", question.name);
+                let mut files = vec![(format!("{name}.json"), scene.to_json())];
+                if let Ok(xml) = mitsuba_xml::write(&scene, &name, self.mode) {
+                    files.push((format!("{name}.xml"), xml.text));
+                    files.extend(xml.files);
+                }
+                for (file, text) in files {
+                    let path = scenes.join(file);
+                    fs::write(&path, text).map_err(|e| at(&path, &e))?;
+                }
+            }
+        }
+        let plan = serde_json::to_string_pretty(&self.plan).expect("names and numbers");
+        let file = self.folder.join("plan.json");
+        fs::write(&file, plan).map_err(|e| at(&file, &e))
+    }
+
+    /// How many poses there are of each question.
+    fn poses(&self) -> u32 {
+        match self.plan.pose_each {
+            true => self.tier.looks().iter().copied().max().unwrap_or(1),
+            false => POSES,
+        }
+    }
+
+    /// The pictures of a question up to a look.
+    pub fn jobs(&self, question: &Question, count: u32) -> Vec<Job> {
+        (0..count)
+            .map(|index| Job {
+                question: question.name.to_owned(),
+                pose: index % self.poses(),
+                samples: question.samples,
+                seed: index + 1,
+                picture: self.plan.picture,
+            })
+            .collect()
+    }
+
+    /// All pictures of the first look, for whoever renders them elsewhere.
+    pub fn first_look(&self) -> Vec<Job> {
+        let count = self.tier.looks().first().copied().unwrap_or(0);
+        (self.questions.iter())
+            .flat_map(|question| self.jobs(question, count))
+            .collect()
+    }
+
+    /// Renders what is missing, look by look, and judges it. What fails is told of its question.
+    pub fn run(&mut self, driver: &Driver, running: &Running<'_>) -> Report {
+        let mut open = self.questions.clone();
+        for (look, count) in self.tier.looks().iter().enumerate() {
+            let jobs: Vec<Job> = open
+                .iter()
+                .flat_map(|question| self.jobs(question, *count))
+                .filter(|job| !job.picture(&self.folder).is_file())
+                .collect();
+            (running.begin)(look as u32, jobs.len());
+            let manner = Manner {
+                folder: &self.folder,
+                mode: self.mode,
+                workers: running.workers,
+                limit: running.limit,
+                done: running.done,
+                stop: running.stop,
+            };
+            for (job, outcome) in runner::run(driver, &jobs, &manner) {
+                let verdict = match outcome {
+                    Outcome::Rendered => continue,
+                    Outcome::Unsupported(why) => Verdict::NotSupported(why),
+                    Outcome::Broken(how) => Verdict::Broken(format!("seed {}: {how}", job.seed)),
+                };
+                self.refusals.entry(job.question).or_insert(verdict);
+            }
+            open.retain(|question| matches!(self.finding(question).verdict, Verdict::Undecided(_)));
+        }
+        self.judge(&driver.description.title, &driver.description.conventions)
+    }
+
+    /// What the pictures of the folder say, whoever rendered them.
+    pub fn judge(&self, title: &str, conventions: &BTreeMap<String, serde_json::Value>) -> Report {
+        let rows = self.questions.iter().map(|question| Row {
+            question: question.name.to_owned(),
+            finding: self.finding(question),
+        });
+        Report {
+            version: crate::report::VERSION,
+            program: title.to_owned(),
+            plan: self.plan.clone(),
+            bound: self.rules().bound,
+            conventions: conventions.clone(),
+            rows: rows.collect(),
+        }
+    }
+
+    fn rules(&self) -> Rules {
+        Rules::new(self.questions.len(), self.tier.looks().len() as u32)
+    }
+
+    /// What the pictures of a question say.
+    fn finding(&self, question: &Question) -> Finding {
+        if let Some(verdict) = self.refusals.get(question.name) {
+            return Finding::of(verdict.clone());
+        }
+        let (_, truth) = (question.ask)();
+        let most = self.tier.looks().iter().copied().max().unwrap_or(0);
+        let mut replicates = Vec::new();
+        for job in self.jobs(question, most) {
+            let path = job.picture(&self.folder);
+            if !path.is_file() {
+                continue;
+            }
+            match Replicate::read(&path, truth.pixels, job.pose, job.seed) {
+                Ok(replicate) => replicates.push(replicate),
+                Err(error) => {
+                    let seed = job.seed;
+                    return Finding::of(Verdict::Broken(format!("seed {seed}: {error}")));
+                }
+            }
+        }
+        judge(&truth, &replicates, &self.rules())
+    }
+}
+
+fn at(path: &Path, error: &dyn std::fmt::Display) -> String {
+    format!("{}: {error}", path.display())
+}
+
+fn read_plan(file: &Path) -> Result<Plan, String> {
+    let text = fs::read_to_string(file).map_err(|e| at(file, &e))?;
+    serde_json::from_str(&text).map_err(|e| at(file, &e))
+}

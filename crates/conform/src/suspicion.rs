@@ -1,0 +1,67 @@
+//! What a difference looks like: most first alarms are a driver's, and have a factor or a turn that betrays them.
+
+use crate::replicate::Replicate;
+use crate::truth::Picture;
+use std::f64::consts::PI;
+
+/// Factors that units bring about, with what they are.
+const FACTORS: [(f64, &str); 9] = [
+    (PI, "π: an intensity or irradiance for a radiance"),
+    (1.0 / PI, "1/π: a radiance for an irradiance"),
+    (4.0 * PI, "4π: a power for an intensity"),
+    (0.25 / PI, "1/(4π): an intensity for a power"),
+    (2.0, "2: light from both sides, or a diameter for a radius"),
+    (0.5, "1/2: light from one side, or a radius for a diameter"),
+    (683.0, "683: lumens for watts"),
+    (1.0 / 683.0, "1/683: watts for lumens"),
+    (1.000_999, "1.000999: the luminance of a flat spectrum of 1"),
+];
+
+/// How near to a factor a ratio must be, relative to it.
+const NEAR: f64 = 0.003;
+
+/// What the mean picture looks like; `None` if like nothing that is known.
+pub(crate) fn of(truth: &Picture, replicates: &[Replicate]) -> Option<String> {
+    let count = replicates.len() as f64;
+    let mean = |index: usize| replicates.iter().map(|r| r.luminance[index]).sum::<f64>() / count;
+    let found: Vec<f64> = (0..truth.means.len()).map(mean).collect();
+    let ratio = found.iter().sum::<f64>() / truth.means.iter().sum::<f64>();
+    if ratio == 0.0 {
+        return Some("nothing at all is seen".to_owned());
+    }
+    let (width, side) = (truth.pixels as usize, truth.pixels as i64);
+    // How far the truth is, taken from other pixels.
+    let distance = |from: &dyn Fn(i64, i64) -> [i64; 2]| {
+        let square = |index: usize| {
+            let [x, y] = from((index % width) as i64, (index / width) as i64);
+            let inside = (0..side).contains(&x) && (0..side).contains(&y);
+            let known = inside.then(|| truth.means[(y * side + x) as usize]);
+            known.map_or(0.0, |known| (found[index] - ratio * known).powi(2))
+        };
+        (0..found.len()).map(square).sum::<f64>()
+    };
+    let last = side - 1;
+    let turns: [(&str, &dyn Fn(i64, i64) -> [i64; 2]); 8] = [
+        ("the picture upside down", &|x, y| [x, last - y]),
+        ("the picture mirrored left to right", &|x, y| [last - x, y]),
+        ("the picture turned by 180°", &|x, y| [last - x, last - y]),
+        ("the picture with rows for columns", &|x, y| [y, x]),
+        ("the picture one pixel too low", &|x, y| [x, y - 1]),
+        ("the picture one pixel too high", &|x, y| [x, y + 1]),
+        ("the picture one pixel too far right", &|x, y| [x - 1, y]),
+        ("the picture one pixel too far left", &|x, y| [x + 1, y]),
+    ];
+    let straight = distance(&|x, y| [x, y]);
+    let turned = turns
+        .iter()
+        .map(|(name, from)| (distance(from), *name))
+        .filter(|(distance, _)| *distance < 0.1 * straight)
+        .min_by(|(a, _), (b, _)| a.total_cmp(b))
+        .map(|(_, name)| name.to_owned());
+    let factor = FACTORS
+        .iter()
+        .find(|(factor, _)| (ratio - factor).abs() <= NEAR * factor)
+        .map(|(_, what)| format!("a factor of {what}"));
+    // A factor close to 1 explains no turn.
+    turned.or(factor)
+}

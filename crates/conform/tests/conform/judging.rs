@@ -1,0 +1,201 @@
+//! The decision on simulated programs: sound ones are not accused, and faults that drivers and renderers have are found.
+
+use etalon_conform::judge::{Finding, Rules, Verdict, judge};
+use etalon_conform::replicate::Replicate;
+use etalon_conform::truth::Picture;
+use etalon_math::float64::{cos, ln, pow};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+const PIXELS: u32 = 16;
+
+/// A picture that looks different from every side.
+fn truth() -> Picture {
+    Picture::of(PIXELS, |x, y| 1.0 + 0.4 * x + 0.3 * y * y + 0.2 * x * y)
+}
+
+/// Normal numbers by Box and Muller's method.
+fn normal(random: &mut Pcg64Mcg) -> f64 {
+    let (u, v): (f64, f64) = (random.random(), random.random());
+    (-2.0 * ln(1.0 - u)).sqrt() * cos(std::f64::consts::TAU * v)
+}
+
+/// Pictures of a sound program, whose pixels have this relative noise.
+fn sound(count: u32, noise: f64, seed: u64) -> Vec<Replicate> {
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let truth = truth();
+    let mut pixel = |known: &f64| known * (1.0 + noise * normal(&mut random));
+    (0..count)
+        .map(|index| Replicate {
+            pose: index % 2,
+            seed: index + 1,
+            luminance: truth.means.iter().map(&mut pixel).collect(),
+        })
+        .collect()
+}
+
+fn judged(replicates: &[Replicate]) -> Finding {
+    judge(&truth(), replicates, &Rules::new(40, 2))
+}
+
+fn changed(change: impl Fn(usize, usize, &dyn Fn(usize, usize) -> f64) -> f64) -> Vec<Replicate> {
+    let side = PIXELS as usize;
+    let of = |replicate: Replicate| {
+        let at = |x: usize, y: usize| replicate.luminance[(y % side) * side + x % side];
+        let pixels = (0..side * side).map(|i| change(i % side, i / side, &at));
+        Replicate {
+            luminance: pixels.collect(),
+            ..replicate
+        }
+    };
+    sound(32, 0.02, 5).into_iter().map(of).collect()
+}
+
+#[test]
+fn a_sound_program_agrees() {
+    let finding = judged(&sound(32, 0.02, 1));
+    assert_eq!(finding.verdict, Verdict::Agrees, "{finding:?}");
+    assert_eq!(finding.suspicion, None);
+    // With too much noise nothing is shown, either way.
+    let finding = judged(&sound(32, 2.0, 2));
+    assert!(
+        matches!(finding.verdict, Verdict::Undecided(_)),
+        "{finding:?}"
+    );
+    assert!(matches!(judged(&[]).verdict, Verdict::Undecided(_)));
+}
+
+/// Each fault with what is suspected, as far as anything is.
+#[test]
+fn planted_faults_are_found() {
+    type Change = fn(usize, usize, &dyn Fn(usize, usize) -> f64) -> f64;
+    let last = PIXELS as usize - 1;
+    assert_eq!(last, 15);
+    let faults: [(Change, Option<&str>); 11] = [
+        (|x, y, at| 1.01 * at(x, y), None),
+        (|x, y, at| 0.985 * at(x, y), None),
+        (|x, y, at| std::f64::consts::PI * at(x, y), Some("π")),
+        (|x, y, at| 2.0 * at(x, y), Some("2:")),
+        (|x, y, at| 683.0 * at(x, y), Some("683")),
+        (|_, _, _| 0.0, Some("nothing at all")),
+        (|x, y, at| at(15 - x, y), Some("mirrored")),
+        (|x, y, at| at(y, x), Some("rows for columns")),
+        (|x, y, at| at(x + 15, y), Some("too far right")),
+        // sRGB's curve, roughly, and a vignette.
+        (|x, y, at| pow(at(x, y), 1.0 / 2.2), None),
+        (
+            |x, y, at| {
+                let square = (x as f64 - 7.5).powi(2) + (y as f64 - 7.5).powi(2);
+                at(x, y) / (1.0 + 0.132 * square / 64.0).powi(2)
+            },
+            None,
+        ),
+    ];
+    for (index, (fault, suspected)) in faults.iter().enumerate() {
+        let finding = judged(&changed(fault));
+        assert_eq!(
+            finding.verdict,
+            Verdict::Differs,
+            "fault {index}: {finding:?}"
+        );
+        if let Some(word) = suspected {
+            let suspicion = finding.suspicion.clone().unwrap_or_default();
+            assert!(suspicion.contains(word), "fault {index}: {suspicion}");
+        }
+    }
+}
+
+#[test]
+fn copies_are_no_replicates() {
+    let one = sound(1, 0.02, 3).remove(0);
+    let other = sound(1, 0.02, 8).remove(0);
+    let copies: Vec<Replicate> = (0..32)
+        .map(|index| Replicate {
+            pose: index % 2,
+            seed: index + 1,
+            luminance: [&one, &other][index as usize % 2].luminance.clone(),
+        })
+        .collect();
+    assert!(matches!(judged(&copies).verdict, Verdict::Broken(_)));
+    let mut some = sound(32, 0.02, 3);
+    some[6].luminance = some[2].luminance.clone();
+    assert!(matches!(judged(&some).verdict, Verdict::Broken(_)));
+    // A picture without noise is the same for all seeds.
+    let exact = |factor: f64| -> Vec<Replicate> {
+        let luminance: Vec<f64> = truth().means.iter().map(|mean| factor * mean).collect();
+        (copies.iter().cloned())
+            .map(|copy| Replicate {
+                luminance: luminance.clone(),
+                ..copy
+            })
+            .collect()
+    };
+    assert_eq!(judged(&exact(1.0)).verdict, Verdict::Agrees);
+    assert_eq!(judged(&exact(0.9)).verdict, Verdict::Differs);
+    // Of pictures that differ by rounding, some are the same by chance.
+    let mut rounded = exact(1.0);
+    for (index, replicate) in rounded.iter_mut().enumerate() {
+        replicate.luminance[0] *= 1.0 + 1e-7 * (index % 5) as f64;
+    }
+    assert_eq!(judged(&rounded).verdict, Verdict::Agrees);
+    // A shape that is wrong without noise is told as that: one tile is dark, and others make up for it.
+    let mut spotted = exact(1.0);
+    for replicate in &mut spotted {
+        replicate.luminance[0] -= 0.5;
+        replicate.luminance[255] += 0.5;
+    }
+    let finding = judged(&spotted);
+    assert_eq!(finding.verdict, Verdict::Differs);
+    assert!(finding.tile.is_some());
+}
+
+/// Rare bright pixels: a sound program is not accused of being too dark, and one that is too bright by far is.
+#[test]
+fn heavy_tails_accuse_nobody_of_darkness() {
+    let spotted = |level: f64| -> Vec<Replicate> {
+        let mut random = Pcg64Mcg::seed_from_u64(11);
+        let mut replicates = sound(32, 0.001, 4);
+        for replicate in &mut replicates {
+            let rare: f64 = random.random();
+            for pixel in &mut replicate.luminance {
+                *pixel *= level * 0.5;
+            }
+            // Half of the light comes once in forty pictures.
+            if rare < 1.0 / 40.0 {
+                let mean: f64 = truth().mean();
+                replicate.luminance[100] += level * 20.0 * mean * 256.0;
+            }
+        }
+        replicates
+    };
+    let finding = judged(&spotted(1.0));
+    assert!(
+        matches!(finding.verdict, Verdict::Undecided(_)),
+        "{finding:?}"
+    );
+    assert_eq!(judged(&spotted(8.0)).verdict, Verdict::Differs);
+}
+
+/// 500 sound programs at an alarm of 0.01 for one question: 5 are expected to be accused at most; more than 19 would be seen with
+/// a probability below 10⁻⁶. Mutant rejected: an alarm shared by fewer statistics than there are.
+#[test]
+fn the_rate_of_false_alarms_is_kept() {
+    let rules = Rules {
+        alarm: 0.01,
+        miss: 0.01,
+        ..Rules::new(1, 1)
+    };
+    // Bounds of nothing, so that any shown difference counts.
+    let rules = Rules {
+        bound: 0.0,
+        tile_bound: 1e-12,
+        ..rules
+    };
+    let accused = (0..500)
+        .filter(|seed| {
+            let replicates = sound(32, 0.05, 1000 + seed);
+            judge(&truth(), &replicates, &rules).verdict == Verdict::Differs
+        })
+        .count();
+    assert!((1..=19).contains(&accused), "{accused}");
+}

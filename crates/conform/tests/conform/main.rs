@@ -1,0 +1,4 @@
+//! Questions to any renderer: the decision, and running programs.
+
+mod judging;
+mod running;
