@@ -20,6 +20,9 @@ const FACTORS: [(f64, &str); 9] = [
 /// How near to a factor a ratio must be, relative to it.
 const NEAR: f64 = 0.003;
 
+/// The pixel of the truth that is seen at a column and a row, with the last of either before them.
+type Turn = fn(i64, i64, i64) -> [i64; 2];
+
 /// What the mean picture looks like; `None` if like nothing that is known.
 pub(crate) fn of(truth: &Picture, replicates: &[Replicate]) -> Option<String> {
     let count = replicates.len() as f64;
@@ -30,31 +33,35 @@ pub(crate) fn of(truth: &Picture, replicates: &[Replicate]) -> Option<String> {
         return Some("nothing at all is seen".to_owned());
     }
     let (width, side) = (truth.pixels as usize, truth.pixels as i64);
+    let last = side - 1;
     // How far the truth is, taken from other pixels.
-    let distance = |from: &dyn Fn(i64, i64) -> [i64; 2]| {
+    let distance = |from: Turn| {
         let square = |index: usize| {
-            let [x, y] = from((index % width) as i64, (index / width) as i64);
+            let [x, y] = from(last, (index % width) as i64, (index / width) as i64);
             let inside = (0..side).contains(&x) && (0..side).contains(&y);
             let known = inside.then(|| truth.means[(y * side + x) as usize]);
             known.map_or(0.0, |known| (found[index] - ratio * known).powi(2))
         };
         (0..found.len()).map(square).sum::<f64>()
     };
-    let last = side - 1;
-    let turns: [(&str, &dyn Fn(i64, i64) -> [i64; 2]); 8] = [
-        ("the picture upside down", &|x, y| [x, last - y]),
-        ("the picture mirrored left to right", &|x, y| [last - x, y]),
-        ("the picture turned by 180°", &|x, y| [last - x, last - y]),
-        ("the picture with rows for columns", &|x, y| [y, x]),
-        ("the picture one pixel too low", &|x, y| [x, y - 1]),
-        ("the picture one pixel too high", &|x, y| [x, y + 1]),
-        ("the picture one pixel too far right", &|x, y| [x - 1, y]),
-        ("the picture one pixel too far left", &|x, y| [x + 1, y]),
+    let turns: [(&str, Turn); 8] = [
+        ("the picture upside down", |last, x, y| [x, last - y]),
+        ("the picture mirrored left to right", |last, x, y| {
+            [last - x, y]
+        }),
+        ("the picture turned by 180°", |last, x, y| {
+            [last - x, last - y]
+        }),
+        ("the picture with rows for columns", |_, x, y| [y, x]),
+        ("the picture one pixel too low", |_, x, y| [x, y - 1]),
+        ("the picture one pixel too high", |_, x, y| [x, y + 1]),
+        ("the picture one pixel too far right", |_, x, y| [x - 1, y]),
+        ("the picture one pixel too far left", |_, x, y| [x + 1, y]),
     ];
-    let straight = distance(&|x, y| [x, y]);
+    let straight = distance(|_, x, y| [x, y]);
     let turned = turns
         .iter()
-        .map(|(name, from)| (distance(from), *name))
+        .map(|(name, from)| (distance(*from), *name))
         .filter(|(distance, _)| *distance < 0.1 * straight)
         .min_by(|(a, _), (b, _)| a.total_cmp(b))
         .map(|(_, name)| name.to_owned());

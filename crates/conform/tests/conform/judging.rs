@@ -123,10 +123,10 @@ fn copies_are_no_replicates() {
     // A picture without noise is the same for all seeds.
     let exact = |factor: f64| -> Vec<Replicate> {
         let luminance: Vec<f64> = truth().means.iter().map(|mean| factor * mean).collect();
-        (copies.iter().cloned())
+        (copies.iter())
             .map(|copy| Replicate {
                 luminance: luminance.clone(),
-                ..copy
+                ..*copy
             })
             .collect()
     };
