@@ -49,6 +49,10 @@ pub struct Description {
     /// Whether pictures depend on a seed; if not, every replicate is another pose.
     #[serde(default = "yes")]
     pub seed: bool,
+    /// Whether the program looks for lights. One that finds them by chance alone may miss small ones in every picture and
+    /// still be right in the mean, so it is never called too dark.
+    #[serde(default = "yes")]
+    pub samples_lights: bool,
     /// What one has to know: units, factors with their reasons.
     #[serde(default)]
     pub conventions: BTreeMap<String, serde_json::Value>,

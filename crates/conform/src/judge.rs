@@ -33,6 +33,8 @@ pub struct Rules {
     pub alarm: f64,
     /// How many questions and looks share these.
     pub family: u32,
+    /// Whether the program can be called too dark: not one that finds lights by chance alone.
+    pub darkness: bool,
 }
 
 impl Rules {
@@ -44,6 +46,7 @@ impl Rules {
             miss: 1e-3,
             alarm: 1e-5,
             family: (questions as u32 * looks).max(1),
+            darkness: true,
         }
     }
 }
@@ -119,12 +122,10 @@ pub fn judge(truth: &Picture, replicates: &[Replicate], rules: &Rules) -> Findin
                 .to_owned(),
         ),
         Copies::All => without_noise(truth, replicates, &ratios, rules, &mut finding),
-        Copies::Some(a, b) if noise(replicates) > NO_NOISE => Verdict::Broken(format!(
+        Copies::Some(a, b) => Verdict::Broken(format!(
             "seeds {a} and {b} gave the same bits: they are no replicates"
         )),
-        Copies::None | Copies::Some(..) => {
-            with_noise(truth, replicates, &ratios, rules, &mut finding)
-        }
+        Copies::None => with_noise(truth, replicates, &ratios, rules, &mut finding),
     };
     if finding.verdict == Verdict::Differs {
         finding.suspicion = suspicion::of(truth, replicates);
@@ -149,37 +150,61 @@ fn copies(replicates: &[Replicate]) -> Copies {
             pairs += 1;
             if a.is_copy_of(b) {
                 same += 1;
-                twins = Some((b.seed, a.seed));
+                // Pictures without noise may well be the same by chance.
+                if twins.is_none() && difference(a, &mean_picture(replicates)) > NO_NOISE {
+                    twins = Some((b.seed, a.seed));
+                }
             }
         }
     }
     match twins {
+        _ if pairs > 0 && same == pairs => Copies::All,
         None => Copies::None,
-        Some(_) if same == pairs => Copies::All,
         Some((a, b)) => Copies::Some(a, b),
+    }
+}
+
+/// The mean of all pictures.
+fn mean_picture(replicates: &[Replicate]) -> Replicate {
+    let count = replicates.len() as f64;
+    let mean = |index: usize| replicates.iter().map(|r| r.luminance[index]).sum::<f64>() / count;
+    let pixels = replicates.first().map_or(0, |first| first.luminance.len());
+    Replicate {
+        pose: 0,
+        seed: 0,
+        luminance: (0..pixels).map(mean).collect(),
     }
 }
 
 /// With less noise than this in a pixel, relative to the mean, pictures of different seeds may well be the same by chance.
 const NO_NOISE: f64 = 1e-3;
 
-/// The greatest difference of two pictures, root mean square over pixels, relative to their mean. A sound picture is the same in
-/// every pose but for its noise, and so is a wrong one without noise.
+/// The difference of two pictures, root mean square over pixels, relative to their mean.
+fn difference(a: &Replicate, b: &Replicate) -> f64 {
+    let pairs = a.luminance.iter().zip(&b.luminance);
+    let square: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
+    let mean = 0.5 * (a.mean() + b.mean()).abs();
+    match square > 0.0 {
+        true => (square / a.luminance.len() as f64).sqrt() / mean,
+        false => 0.0,
+    }
+}
+
+/// The greatest difference of a picture from the first. A sound picture is the same in every pose but for its noise, and so is a
+/// wrong one without noise.
 fn noise(replicates: &[Replicate]) -> f64 {
     let Some((first, others)) = replicates.split_first() else {
         return 0.0;
     };
-    let difference = |other: &Replicate| {
-        let pairs = first.luminance.iter().zip(&other.luminance);
-        let square: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
-        let mean = 0.5 * (first.mean() + other.mean()).abs();
-        match square > 0.0 {
-            true => (square / first.luminance.len() as f64).sqrt() / mean,
-            false => 0.0,
-        }
-    };
-    others.iter().map(difference).fold(0.0, f64::max)
+    others
+        .iter()
+        .map(|other| difference(first, other))
+        .fold(0.0, f64::max)
 }
+
+/// Why a dark picture accuses nobody.
+const FOUND_BY_CHANCE: &str =
+    "too dark so far; but the program finds lights by chance alone, and may have missed some";
 
 /// Pictures that no seed changes are judged as they are.
 fn without_noise(
@@ -195,6 +220,9 @@ fn without_noise(
     finding.bias = Some(biases.sum::<f64>() / ratios.len() as f64);
     finding.interval = Some([least, most]);
     finding.run_interval = finding.interval;
+    if most < -rules.bound && !rules.darkness {
+        return Verdict::Undecided(FOUND_BY_CHANCE.to_owned());
+    }
     let beyond = |sample: &[f64]| {
         let off = sample.iter().find(|deviation| deviation.abs() > 1.0);
         off.copied()
@@ -226,20 +254,27 @@ fn with_noise(
     finding.interval = at(0.05);
     finding.run_interval = at(miss);
     let of_picture = at(alarm);
-    let darkness = of_picture.is_some();
+    let darkness = rules.darkness && of_picture.is_some();
     let beyond_bound = |sample: &[f64]| {
         let [low, high] = interval(sample, alarm)?;
         let mean = sample.iter().sum::<f64>() / sample.len() as f64;
         (low > 1.0 || darkness && high < -1.0).then_some(mean)
     };
     finding.tile = worst_tile(truth, replicates, rules, beyond_bound);
-    let beyond = |[low, high]: [f64; 2]| low > rules.bound || high < -rules.bound;
+    // Deviations that do not matter need no distribution.
+    if biases.iter().all(|bias| bias.abs() <= 0.1 * rules.bound) && finding.tile.is_none() {
+        return Verdict::Agrees;
+    }
+    let beyond = |[low, high]: [f64; 2]| low > rules.bound || darkness && high < -rules.bound;
     let too_bright = e_value::exceeds(ratios, 1.0 + rules.bound) >= 1.0 / alarm;
     if of_picture.is_some_and(beyond) || too_bright || finding.tile.is_some() {
         return Verdict::Differs;
     }
     match finding.run_interval {
         Some([low, high]) if low >= -rules.bound && high <= rules.bound => Verdict::Agrees,
+        Some([_, high]) if high < -rules.bound && !rules.darkness => {
+            Verdict::Undecided(FOUND_BY_CHANCE.to_owned())
+        }
         Some([low, high]) => Verdict::Undecided(format!(
             "the interval is ± {:.2} % wide at the level of the run",
             50.0 * (high - low)

@@ -25,6 +25,8 @@ pub struct Pose {
 pub enum Freedom {
     /// In every way.
     Any,
+    /// In every way, and anew for each picture: for faults that depend on how sizes are rounded.
+    EachAnew,
     /// Its origin stays where it is, for scenes with things so small there that single precision cannot hold their corners
     /// elsewhere.
     AboutOrigin,
@@ -58,7 +60,7 @@ impl Pose {
             rotation: DMat3::from_quat(turn.normalize()),
             scale,
             shift: match freedom {
-                Freedom::Any => shift,
+                Freedom::Any | Freedom::EachAnew => shift,
                 Freedom::AboutOrigin => DVec3::ZERO,
             },
         }

@@ -45,6 +45,7 @@ pub const ALL: &[Question] = &[
     rooms::WHITE_FURNACE,
     rooms::DARK_ROOM,
     rooms::GREY_ROOM,
+    rooms::ROOM_SIZES,
     rooms::BRIGHT_ROOM,
     rooms::CUBE_ROOM,
     rooms::POINT_IN_SPHERE,

@@ -4,6 +4,7 @@ use crate::driver::{Driver, PictureFormat};
 use crate::job::Job;
 use crate::judge::{Finding, Rules, Verdict, judge};
 use crate::mitsuba_xml::{self, Mode};
+use crate::pose::Freedom;
 use crate::question::Question;
 use crate::replicate::Replicate;
 use crate::report::{Report, Row};
@@ -34,6 +35,8 @@ pub struct Plan {
     pub program_version: String,
     /// Whether every picture has a pose of its own.
     pub pose_each: bool,
+    /// Whether the program looks for lights, so that it can be called too dark.
+    pub samples_lights: bool,
     /// The format of pictures.
     pub picture: PictureFormat,
     /// The names of the questions.
@@ -83,6 +86,7 @@ impl Plan {
             program: "elsewhere".to_owned(),
             program_version: String::new(),
             pose_each: false,
+            samples_lights: true,
             picture: PictureFormat::Exr,
             questions: asked.map(|question| question.name.to_owned()).collect(),
         }
@@ -95,6 +99,7 @@ impl Plan {
             program: driver.description.name.clone(),
             program_version,
             pose_each: !driver.description.seed,
+            samples_lights: driver.description.samples_lights,
             picture: driver.description.picture,
             ..self
         }
@@ -154,9 +159,9 @@ impl Suite {
             questions: questions.collect::<Result<_, _>>()?,
             tier: *tier,
             mode,
+            refusals: read_refusals(&folder.join(REFUSALS)),
             folder,
             plan,
-            refusals: BTreeMap::new(),
         })
     }
 
@@ -167,7 +172,7 @@ impl Suite {
             fs::create_dir_all(folder).map_err(|e| at(folder, &e))?;
         }
         for question in &self.questions {
-            for pose in 0..self.poses() {
+            for pose in 0..self.poses(question) {
                 let (scene, _) = question.posed(self.plan.suite_seed, pose);
                 let name = format!("{}-pose{pose}", question.name);
                 let mut files = vec![(format!("{name}.json"), scene.to_json())];
@@ -186,9 +191,9 @@ impl Suite {
         fs::write(&file, plan).map_err(|e| at(&file, &e))
     }
 
-    /// How many poses there are of each question.
-    fn poses(&self) -> u32 {
-        match self.plan.pose_each {
+    /// How many poses there are of a question.
+    fn poses(&self, question: &Question) -> u32 {
+        match self.plan.pose_each || question.freedom == Freedom::EachAnew {
             true => self.tier.looks().iter().copied().max().unwrap_or(1),
             false => POSES,
         }
@@ -199,7 +204,7 @@ impl Suite {
         (0..count)
             .map(|index| Job {
                 question: question.name.to_owned(),
-                pose: index % self.poses(),
+                pose: index % self.poses(question),
                 samples: question.samples,
                 seed: index + 1,
                 picture: self.plan.picture,
@@ -217,6 +222,7 @@ impl Suite {
 
     /// Renders what is missing, look by look, and judges it. What fails is told of its question.
     pub fn run(&mut self, driver: &Driver, running: &Running<'_>) -> Report {
+        self.refusals.clear();
         let mut open = self.questions.clone();
         for (look, count) in self.tier.looks().iter().enumerate() {
             let jobs: Vec<Job> = open
@@ -243,6 +249,9 @@ impl Suite {
             }
             open.retain(|question| matches!(self.finding(question).verdict, Verdict::Undecided(_)));
         }
+        let refusals = serde_json::to_string_pretty(&self.refusals).expect("words");
+        // Without this file the questions are undecided when they are judged again.
+        let _ = fs::write(self.folder.join(REFUSALS), refusals);
         self.judge(&driver.description.title, &driver.description.conventions)
     }
 
@@ -263,7 +272,10 @@ impl Suite {
     }
 
     fn rules(&self) -> Rules {
-        Rules::new(self.questions.len(), self.tier.looks().len() as u32)
+        Rules {
+            darkness: self.plan.samples_lights,
+            ..Rules::new(self.questions.len(), self.tier.looks().len() as u32)
+        }
     }
 
     /// What the pictures of a question say.
@@ -293,6 +305,15 @@ impl Suite {
 
 fn at(path: &Path, error: &dyn std::fmt::Display) -> String {
     format!("{}: {error}", path.display())
+}
+
+/// The file with what is known of questions without pictures.
+const REFUSALS: &str = "refusals.json";
+
+/// Those of an earlier run, if there was one.
+fn read_refusals(file: &Path) -> BTreeMap<String, Verdict> {
+    let text = fs::read_to_string(file).unwrap_or_default();
+    serde_json::from_str(&text).unwrap_or_default()
 }
 
 fn read_plan(file: &Path) -> Result<Plan, String> {

@@ -44,6 +44,14 @@ pub(super) const GREY_ROOM: Question = Question {
     ..DARK_ROOM
 };
 
+pub(super) const ROOM_SIZES: Question = Question {
+    name: "glowing-room-sizes",
+    title: "Inside glowing spheres of many sizes, of reflectance 0.5",
+    freedom: Freedom::EachAnew,
+    ask: || round_room("glowing-room-sizes", 0.5),
+    ..DARK_ROOM
+};
+
 pub(super) const BRIGHT_ROOM: Question = Question {
     name: "glowing-room-0.8",
     title: "Inside a glowing sphere of reflectance 0.8",

@@ -176,6 +176,28 @@ fn heavy_tails_accuse_nobody_of_darkness() {
     assert_eq!(judged(&spotted(8.0)).verdict, Verdict::Differs);
 }
 
+/// A program that finds lights by chance alone is told so, and is not called too dark.
+#[test]
+fn who_finds_lights_by_chance_is_not_called_dark() {
+    let rules = Rules {
+        darkness: false,
+        ..Rules::new(40, 2)
+    };
+    for (factor, differs) in [(0.0, false), (0.5, false), (1.5, true)] {
+        let mut replicates = sound(32, 0.02, 9);
+        for replicate in &mut replicates {
+            replicate
+                .luminance
+                .iter_mut()
+                .for_each(|pixel| *pixel *= factor);
+        }
+        let finding = judge(&truth(), &replicates, &rules);
+        let accused = finding.verdict == Verdict::Differs;
+        assert_eq!(accused, differs, "{factor}: {finding:?}");
+        assert!(finding.verdict != Verdict::Agrees, "{factor}");
+    }
+}
+
 /// 500 sound programs at an alarm of 0.01 for one question: 5 are expected to be accused at most; more than 19 would be seen with
 /// a probability below 10⁻⁶. Mutant rejected: an alarm shared by fewer statistics than there are.
 #[test]

@@ -54,6 +54,7 @@ const TABLE: &[Row] = &[
     ("white-furnace", |s| by_directions(s, 1, 100), 1e-12, 1e-12),
     ("glowing-room-0.2", |s| room(s, 1000), 1e-12, 1e-12),
     ("glowing-room-0.5", |s| room(s, 1000), 1e-12, 1e-12),
+    ("glowing-room-sizes", |s| room(s, 1000), 1e-12, 1e-12),
     ("glowing-room-0.8", |s| room(s, 1000), 1e-12, 1e-12),
     ("glowing-cube", |s| room(s, 1000), 1e-12, 1e-12),
     ("integrating-sphere-point", |s| room(s, 200_000), 1e-4, 1e-3),
