@@ -41,6 +41,8 @@ pub struct Plan {
     pub picture: PictureFormat,
     /// The names of the questions.
     pub questions: Vec<String>,
+    /// Part I of N of them is rendered, every Nth from the Ith on; the error rates are those of all.
+    pub part: [u32; 2],
 }
 
 /// A run in its folder.
@@ -89,6 +91,7 @@ impl Plan {
             samples_lights: true,
             picture: PictureFormat::Exr,
             questions: asked.map(|question| question.name.to_owned()).collect(),
+            part: [1, 1],
         }
     }
 
@@ -154,9 +157,15 @@ impl Suite {
         let question = |name: &String| {
             crate::questions::by_name(name).ok_or_else(|| format!("there is no question `{name}`"))
         };
-        let questions = plan.questions.iter().map(question);
+        let questions: Vec<&'static Question> = (plan.questions.iter())
+            .map(question)
+            .collect::<Result<_, _>>()?;
+        let [part, of] = plan.part.map(|number| number as usize);
+        if !(1..=of).contains(&part) {
+            return Err(format!("there is no part {part} of {of}"));
+        }
         Ok(Self {
-            questions: questions.collect::<Result<_, _>>()?,
+            questions: questions.into_iter().skip(part - 1).step_by(of).collect(),
             tier: *tier,
             mode,
             refusals: read_refusals(&folder.join(REFUSALS)),
@@ -274,7 +283,7 @@ impl Suite {
     fn rules(&self) -> Rules {
         Rules {
             darkness: self.plan.samples_lights,
-            ..Rules::new(self.questions.len(), self.tier.looks().len() as u32)
+            ..Rules::new(self.plan.questions.len(), self.tier.looks().len() as u32)
         }
     }
 
