@@ -1,5 +1,6 @@
 //! What a program answered: a picture as luminances.
 
+use crate::truth::Picture;
 use etalon_images::{exr, raster_file};
 use std::path::Path;
 
@@ -69,4 +70,15 @@ impl Replicate {
         let pairs = self.luminance.iter().zip(&other.luminance);
         pairs.into_iter().all(|(a, b)| a.to_bits() == b.to_bits())
     }
+}
+
+/// The mean of pictures of this many rows and columns; `None` of no pictures.
+pub fn mean(replicates: &[Replicate], pixels: u32) -> Option<Picture> {
+    let count = replicates.len() as f64;
+    let mean = |index: usize| replicates.iter().map(|r| r.luminance[index]).sum::<f64>() / count;
+    let pixel_count = (pixels * pixels) as usize;
+    (!replicates.is_empty()).then(|| Picture {
+        pixels,
+        means: (0..pixel_count).map(mean).collect(),
+    })
 }

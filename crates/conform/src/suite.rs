@@ -4,9 +4,10 @@ use crate::driver::{Driver, PictureFormat};
 use crate::job::Job;
 use crate::judge::{Finding, Rules, Verdict, judge};
 use crate::mitsuba_xml::{self, Mode};
+use crate::page::Run;
 use crate::pose::Freedom;
 use crate::question::Question;
-use crate::replicate::Replicate;
+use crate::replicate::{self, Replicate};
 use crate::report::{Report, Row};
 use crate::runner::{self, Manner, Outcome};
 use crate::tier::Tier;
@@ -293,22 +294,40 @@ impl Suite {
             return Finding::of(verdict.clone());
         }
         let (_, truth) = (question.ask)();
+        match self.replicates(question, truth.pixels) {
+            Ok(replicates) => judge(&truth, &replicates, &self.rules()),
+            Err(error) => Finding::of(Verdict::Broken(error)),
+        }
+    }
+
+    /// The pictures of a question that there are.
+    fn replicates(&self, question: &Question, pixels: u32) -> Result<Vec<Replicate>, String> {
         let most = self.tier.looks().iter().copied().max().unwrap_or(0);
         let mut replicates = Vec::new();
         for job in self.jobs(question, most) {
             let path = job.picture(&self.folder);
-            if !path.is_file() {
-                continue;
-            }
-            match Replicate::read(&path, truth.pixels, job.pose, job.seed) {
-                Ok(replicate) => replicates.push(replicate),
-                Err(error) => {
-                    let seed = job.seed;
-                    return Finding::of(Verdict::Broken(format!("seed {seed}: {error}")));
-                }
+            if path.is_file() {
+                let replicate = Replicate::read(&path, pixels, job.pose, job.seed)
+                    .map_err(|error| format!("seed {}: {error}", job.seed))?;
+                replicates.push(replicate);
             }
         }
-        judge(&truth, &replicates, &self.rules())
+        Ok(replicates)
+    }
+
+    /// A report of this run with the means of the folder's pictures, for [`crate::page::page`]. Questions without pictures, or
+    /// with one that cannot be read, are shown without.
+    pub fn run_for_page<'a>(&self, report: &'a Report) -> Run<'a> {
+        let mean = |question: &&'static Question| {
+            let (_, truth) = (question.ask)();
+            let replicates = self.replicates(question, truth.pixels).ok()?;
+            let mean = replicate::mean(&replicates, truth.pixels)?;
+            Some((question.name.to_owned(), mean))
+        };
+        Run {
+            report,
+            means: self.questions.iter().filter_map(mean).collect(),
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use crate::arg_values::whole;
 use clap::{Args, Subcommand, ValueEnum};
 use etalon_conform::mitsuba_xml::Mode;
 use etalon_conform::tier::Tier;
+use etalon_render::part::PartOfMany;
 use std::path::PathBuf;
 
 /// Arguments of `conform`.
@@ -43,6 +44,15 @@ Examples:
         #[arg(long, default_value = "another program")]
         program: String,
     },
+    /// Put the reports of several programs on one page.
+    Page {
+        /// The reports.
+        #[arg(required = true, num_args = 1.., value_name = "REPORT.json")]
+        reports: Vec<PathBuf>,
+        /// The page to write.
+        #[arg(short, long, value_name = "PAGE.html")]
+        output: PathBuf,
+    },
     /// Say what changed between two reports; exit code 1 if anything became worse.
     Diff {
         /// The older report.
@@ -78,6 +88,9 @@ pub struct ConformRunArgs {
     /// What is asked.
     #[command(flatten)]
     pub asked: AskedArgs,
+    /// Ask part I of N of the questions; the error rates are those of all.
+    #[arg(long, value_name = "I/N")]
+    pub part: Option<PartOfMany>,
     /// The folder for scenes, pictures and the report [default: conform-NAME, in this folder].
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,

@@ -4,10 +4,12 @@ use super::{answer, fail, note};
 use crate::args::{AskedArgs, ConformArgs, ConformCommand, ConformExportArgs, ConformRunArgs};
 use crate::interrupt;
 use etalon_conform::driver::{Driver, Programs};
+use etalon_conform::page::{Run, page};
 use etalon_conform::report::Report;
 use etalon_conform::runner::Outcome;
 use etalon_conform::suite::{Plan, Running, Suite};
 use etalon_conform::{drivers, questions};
+use etalon_render::write_guard::{Destination, WriteGuard};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::fmt::Write;
 use std::fs;
@@ -25,6 +27,7 @@ pub fn run(args: &ConformArgs) -> ExitCode {
         ConformCommand::Run(args) => ask(args),
         ConformCommand::Export(args) => export(args),
         ConformCommand::Judge { folder, program } => judge(folder, program),
+        ConformCommand::Page { reports, output } => together(reports, output),
         ConformCommand::Diff { old, new } => diff(old, new),
     };
     outcome.unwrap_or_else(fail)
@@ -113,7 +116,10 @@ fn ask(args: &ConformRunArgs) -> Result<ExitCode, String> {
         true => Driver::read(path, &programs)?,
         false => Driver::named(&args.driver, &output.join("driver"), &programs)?,
     };
-    let plan = plan(&args.asked)?;
+    let plan = Plan {
+        part: args.part.map_or([1, 1], |part| [part.number, part.count]),
+        ..plan(&args.asked)?
+    };
     let version = driver.version()?;
     if !args.quiet {
         note(format!(
@@ -123,6 +129,7 @@ fn ask(args: &ConformRunArgs) -> Result<ExitCode, String> {
         ));
     }
     let mut suite = Suite::create(&output, plan.of(&driver, version))?;
+    let places = places(&output, args.baseline.as_ref())?;
     let bar = progress(args.quiet);
     let stop = interrupt::flag();
     let workers = args
@@ -149,8 +156,7 @@ fn ask(args: &ConformRunArgs) -> Result<ExitCode, String> {
         },
     );
     bar.finish_and_clear();
-    let file = output.join("report.json");
-    fs::write(&file, report.to_json()).map_err(|e| format!("{}: {e}", file.display()))?;
+    keep(&suite, &report, &places)?;
     let mut code = report.conclusion().exit_code();
     let mut text = report.table();
     if let Some(baseline) = baseline {
@@ -204,11 +210,43 @@ fn export(args: &ConformExportArgs) -> Result<ExitCode, String> {
 }
 
 fn judge(folder: &Path, program: &str) -> Result<ExitCode, String> {
-    let report = Suite::open(folder)?.judge(program, &Default::default());
-    let file = folder.join("report.json");
-    fs::write(&file, report.to_json()).map_err(|e| format!("{}: {e}", file.display()))?;
+    let suite = Suite::open(folder)?;
+    let report = suite.judge(program, &Default::default());
+    keep(&suite, &report, &places(folder, None)?)?;
     let code = ExitCode::from(report.conclusion().exit_code());
     Ok(answer(&report.table(), code))
+}
+
+/// The files of a run's report and its page; neither is one of those that were read.
+fn places(folder: &Path, read: Option<&PathBuf>) -> Result<[Destination; 2], String> {
+    let mut guard = WriteGuard::of(read);
+    let report = guard.claim(&folder.join("report.json"))?;
+    Ok([report, guard.claim(&folder.join("index.html"))?])
+}
+
+/// Writes the report of a run, and its page.
+fn keep(suite: &Suite, report: &Report, [json, html]: &[Destination; 2]) -> Result<(), String> {
+    json.write_text(&report.to_json())?;
+    html.write_text(&page(&[suite.run_for_page(report)]))
+}
+
+/// Several reports on one page, with the pictures of those that lie in the folder of their run.
+fn together(reports: &[PathBuf], output: &Path) -> Result<ExitCode, String> {
+    let destination = WriteGuard::of(reports.iter().cloned()).claim(output)?;
+    let read = reports.iter().map(|path| read_report(path));
+    let read: Vec<Report> = read.collect::<Result<_, _>>()?;
+    let runs = reports.iter().zip(&read).map(|(path, report)| {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let suite = Suite::open(folder).ok();
+        let suite = suite.filter(|suite| suite.plan == report.plan);
+        suite.map_or_else(
+            || Run::without_pictures(report),
+            |suite| suite.run_for_page(report),
+        )
+    });
+    let text = page(&runs.collect::<Vec<_>>());
+    destination.write_text(&text)?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn read_report(path: &Path) -> Result<Report, String> {

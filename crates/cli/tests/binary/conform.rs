@@ -60,6 +60,25 @@ fn a_run_is_judged_kept_and_compared() {
     assert_eq!(ran.code, Some(1));
     let ran = diff("conform-twice/report.json", "sound/report.json").fine();
     assert!(ran.stdout.contains("differs, now agrees"), "{}", ran.stdout);
+    let page = [
+        "conform",
+        "page",
+        "sound/report.json",
+        "conform-twice/report.json",
+        "-o",
+        "both.html",
+    ];
+    workshop.run(&page).fine();
+    let page = String::from_utf8(workshop.read("both.html")).expect("text");
+    assert!(page.contains("point-light-unit") && page.contains("Twice"));
+    assert!(workshop.path("sound/index.html").is_file());
+    let ran = run(&[
+        "--driver",
+        "twice.toml",
+        "--baseline",
+        "conform-twice/report.json",
+    ]);
+    assert_eq!(ran.code, Some(2), "what was read is not written over");
     // Pictures that are there are judged again without the program.
     let ran = workshop.run(&["conform", "judge", "conform-twice"]);
     assert_eq!(ran.code, Some(1), "{}", ran.stderr);
@@ -94,6 +113,10 @@ fn mistakes_are_told() {
         (
             &["run", "--driver", "mitsuba", "--python", "no-such-python"],
             "it needs the Python module",
+        ),
+        (
+            &["run", "--driver", "etalon", "--part", "3/2"],
+            "expected I/N",
         ),
         (&["judge", "nowhere"], "nowhere"),
         (&["diff", "a.json", "b.json"], "a.json"),

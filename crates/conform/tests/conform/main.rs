@@ -1,4 +1,5 @@
-//! Questions to any renderer: the decision, and running programs.
+//! Questions to any renderer: the decision, running programs, and the page.
 
 mod judging;
+mod page;
 mod running;

@@ -34,6 +34,11 @@ const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inlin
 
 /// A whole page.
 pub fn page(title: &str, body: &Markup) -> String {
+    styled_page(title, "", body)
+}
+
+/// A whole page with rules of its own besides the look of all.
+pub fn styled_page(title: &str, style: &str, body: &Markup) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -44,7 +49,7 @@ pub fn page(title: &str, body: &Markup) -> String {
                 meta http-equiv="Content-Security-Policy" content=(POLICY);
                 meta name="referrer" content="no-referrer";
                 title { (title) " – Etalon" }
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(STYLE)) (PreEscaped(style)) }
                 // Before anything is drawn, so that nothing flashes or moves.
                 script { (PreEscaped(
                     "document.documentElement.classList.add('scripted');try{var t=localStorage.getItem('etalon-theme');if(t)document.documentElement.dataset.theme=t}catch(e){}"
@@ -66,7 +71,7 @@ pub fn page(title: &str, body: &Markup) -> String {
 }
 
 /// RGB bytes as a PNG file in an address.
-fn encode(bytes: &[u8], width: usize, height: usize) -> Option<String> {
+pub fn encode(bytes: &[u8], width: usize, height: usize) -> Option<String> {
     let png = png::encode_rgb(bytes, width, height).ok()?;
     Some(format!("data:image/png;base64,{}", STANDARD.encode(png)))
 }
