@@ -5,6 +5,7 @@ mod denoise;
 mod estimators;
 mod farm;
 mod framing;
+mod merge;
 mod port;
 mod preview;
 mod replay_address;
@@ -15,6 +16,7 @@ pub use denoise::DenoiseArgs;
 pub use estimators::EstimatorsArgs;
 pub use farm::{FarmArgs, PathMap};
 pub use framing::{FramingArgs, ShownArgs};
+pub use merge::MergeArgs;
 pub use port::Port;
 pub use preview::{PreviewArgs, ViewArgs};
 pub use replay_address::ReplayAddress;
@@ -323,23 +325,6 @@ impl RenderArgs {
     pub fn output(&self) -> &Path {
         (self.outputs.as_ref()).map_or(Path::new(""), |outputs| &outputs.image)
     }
-}
-
-/// Arguments of `merge`.
-#[derive(Debug, Args, Clone)]
-pub struct MergeArgs {
-    /// The parts, in any order, or a folder with them.
-    #[arg(required = true, value_name = "PART.exr|DIR")]
-    pub parts: Vec<PathBuf>,
-    /// The image to write.
-    #[arg(short, long, value_name = "OUT.exr")]
-    pub output: PathBuf,
-    /// Merge what there is, if parts are missing: into a larger part.
-    #[arg(long)]
-    pub partial: bool,
-    /// Say nothing but errors.
-    #[arg(short, long)]
-    pub quiet: bool,
 }
 
 /// Arguments of `compare`.

@@ -1,7 +1,7 @@
 //! A picture to be rendered.
 
 use crate::driver::PictureFormat;
-use crate::mitsuba_xml::Mode;
+use crate::mode::Mode;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

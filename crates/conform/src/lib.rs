@@ -10,6 +10,7 @@ pub mod drivers;
 pub mod job;
 pub mod judge;
 pub mod mitsuba_xml;
+pub mod mode;
 pub mod page;
 pub mod pose;
 pub mod question;

@@ -3,33 +3,15 @@
 //! Emission is `rgb`, whose luminance is the number itself in spectral variants too; a uniform spectrum of 1 has the luminance
 //! 1.000999 there. Meshes stand in OBJ files beside the scene.
 
+use crate::mode::Mode;
 use crate::scene::{
     Camera, Light, Material, Object, Projection, Scene, Shape, Sky, Triple, quad_normal,
 };
 use std::fmt::Write;
 
-/// What a program is to leave out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
-    /// Everything that biases: paths are as long as they get.
-    Measure,
-    /// Nothing: the program's own defaults.
-    Shipped,
-}
-
-impl Mode {
-    /// As drivers are told.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Measure => "measure",
-            Self::Shipped => "shipped",
-        }
-    }
-}
-
 /// A scene as XML.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Xml {
+pub struct MitsubaXml {
     /// The scene's text.
     pub text: String,
     /// Names and texts of the files that it names.
@@ -40,7 +22,7 @@ pub struct Xml {
 ///
 /// # Errors
 /// What the format cannot say.
-pub fn write(scene: &Scene, name: &str, mode: Mode) -> Result<Xml, String> {
+pub fn write(scene: &Scene, name: &str, mode: Mode) -> Result<MitsubaXml, String> {
     let mut files = Vec::new();
     let mut body = String::new();
     for (index, object) in scene.objects.iter().enumerate() {
@@ -81,7 +63,7 @@ pub fn write(scene: &Scene, name: &str, mode: Mode) -> Result<Xml, String> {
          <integrator type=\"{integrator}\">{depth}</integrator>\n{camera}{body}</scene>\n",
         camera = camera(&scene.camera, scene.pixels)
     );
-    Ok(Xml { text, files })
+    Ok(MitsubaXml { text, files })
 }
 
 /// A number that reads back as it was.

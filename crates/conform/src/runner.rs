@@ -2,7 +2,7 @@
 
 use crate::driver::Driver;
 use crate::job::Job;
-use crate::mitsuba_xml::Mode;
+use crate::mode::Mode;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -24,8 +24,8 @@ pub enum Outcome {
     Broken(String),
 }
 
-/// How jobs are run.
-pub struct Manner<'a> {
+/// Runs jobs.
+pub struct Runner<'a> {
     /// The folder with scenes and pictures, an absolute path.
     pub folder: &'a Path,
     /// What the program is to leave out.
@@ -40,55 +40,57 @@ pub struct Manner<'a> {
     pub stop: &'a AtomicBool,
 }
 
-/// Runs the jobs; what became of each, in their order. Jobs that were not begun are missing.
-pub fn run(driver: &Driver, jobs: &[Job], manner: &Manner<'_>) -> Vec<(Job, Outcome)> {
-    let next = Mutex::new(0..jobs.len());
-    let take = || {
-        let mut next = next.lock().unwrap_or_else(|error| error.into_inner());
-        (!manner.stop.load(Ordering::Relaxed))
-            .then(|| next.next())
-            .flatten()
-    };
-    let work = || {
-        let mut own = Vec::new();
-        let mut batch: Option<Batch> = None;
-        while let Some(index) = take() {
-            let job = &jobs[index];
-            let outcome = match driver.description.batch {
-                true => in_batch(driver, &mut batch, job, manner),
-                false => alone(driver, job, manner),
-            };
-            let outcome = match outcome {
-                Outcome::Rendered if !job.picture(manner.folder).is_file() => {
-                    Outcome::Broken("it wrote no picture".to_owned())
-                }
-                outcome => outcome,
-            };
-            (manner.done)(job, &outcome);
-            own.push((index, job.clone(), outcome));
-        }
-        own
-    };
-    let mut all: Vec<_> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..manner.workers.max(1))
-            .map(|_| scope.spawn(work))
-            .collect();
-        let ended = workers.into_iter().map(|worker| worker.join());
-        ended.flat_map(|own| own.unwrap_or_default()).collect()
-    });
-    all.sort_by_key(|(index, ..)| *index);
-    all.into_iter()
-        .map(|(_, job, outcome)| (job, outcome))
-        .collect()
+impl Runner<'_> {
+    /// Runs the jobs; what became of each, in their order. Jobs that were not begun are missing.
+    pub fn run(&self, driver: &Driver, jobs: &[Job]) -> Vec<(Job, Outcome)> {
+        let next = Mutex::new(0..jobs.len());
+        let take = || {
+            let mut next = next.lock().unwrap_or_else(|error| error.into_inner());
+            (!self.stop.load(Ordering::Relaxed))
+                .then(|| next.next())
+                .flatten()
+        };
+        let work = || {
+            let mut own = Vec::new();
+            let mut batch: Option<Batch> = None;
+            while let Some(index) = take() {
+                let job = &jobs[index];
+                let outcome = match driver.description.batch {
+                    true => in_batch(driver, &mut batch, job, self),
+                    false => alone(driver, job, self),
+                };
+                let outcome = match outcome {
+                    Outcome::Rendered if !job.picture(self.folder).is_file() => {
+                        Outcome::Broken("it wrote no picture".to_owned())
+                    }
+                    outcome => outcome,
+                };
+                (self.done)(job, &outcome);
+                own.push((index, job.clone(), outcome));
+            }
+            own
+        };
+        let mut all: Vec<_> = std::thread::scope(|scope| {
+            let workers: Vec<_> = (0..self.workers.max(1))
+                .map(|_| scope.spawn(work))
+                .collect();
+            let ended = workers.into_iter().map(|worker| worker.join());
+            ended.flat_map(|own| own.unwrap_or_default()).collect()
+        });
+        all.sort_by_key(|(index, ..)| *index);
+        all.into_iter()
+            .map(|(_, job, outcome)| (job, outcome))
+            .collect()
+    }
 }
 
-fn values(job: &Job, manner: &Manner<'_>) -> BTreeMap<&'static str, String> {
-    job.values(manner.folder, 1, manner.mode)
+fn values(job: &Job, runner: &Runner<'_>) -> BTreeMap<&'static str, String> {
+    job.values(runner.folder, 1, runner.mode)
 }
 
 /// The command for a job, or why there is none.
-fn command(driver: &Driver, job: &Job, manner: &Manner<'_>) -> Result<Vec<String>, Outcome> {
-    let values = values(job, manner);
+fn command(driver: &Driver, job: &Job, runner: &Runner<'_>) -> Result<Vec<String>, Outcome> {
+    let values = values(job, runner);
     let asks_for_xml = driver
         .description
         .command
@@ -133,8 +135,8 @@ fn last_line(said: &str) -> String {
 }
 
 /// A program that renders one picture and ends.
-fn alone(driver: &Driver, job: &Job, manner: &Manner<'_>) -> Outcome {
-    let child = command(driver, job, manner)
+fn alone(driver: &Driver, job: &Job, runner: &Runner<'_>) -> Outcome {
+    let child = command(driver, job, runner)
         .and_then(|words| start(&words, Stdio::null(), Stdio::null()).map_err(Outcome::Broken));
     let mut child = match child {
         Ok(child) => child,
@@ -145,12 +147,12 @@ fn alone(driver: &Driver, job: &Job, manner: &Manner<'_>) -> Outcome {
     let status = loop {
         match child.try_wait() {
             Ok(Some(status)) => break status,
-            Ok(None) if begin.elapsed() < manner.limit => {
+            Ok(None) if begin.elapsed() < runner.limit => {
                 std::thread::sleep(Duration::from_millis(2));
             }
             Ok(None) => {
                 end(&mut child);
-                return too_slow(manner.limit);
+                return too_slow(runner.limit);
             }
             Err(error) => return Outcome::Broken(error.to_string()),
         }
@@ -248,16 +250,16 @@ impl Batch {
     }
 }
 
-fn in_batch(driver: &Driver, batch: &mut Option<Batch>, job: &Job, manner: &Manner<'_>) -> Outcome {
+fn in_batch(driver: &Driver, batch: &mut Option<Batch>, job: &Job, runner: &Runner<'_>) -> Outcome {
     let running = match batch.take().map_or_else(|| Batch::start(driver), Ok) {
         Ok(running) => batch.insert(running),
         Err(message) => return Outcome::Broken(message),
     };
-    let mut line = serde_json::to_value(values(job, manner)).expect("words");
+    let mut line = serde_json::to_value(values(job, runner)).expect("words");
     for (name, value) in [("samples", job.samples), ("seed", job.seed), ("threads", 1)] {
         line[name] = value.into();
     }
-    match running.ask(&line.to_string(), manner.limit) {
+    match running.ask(&line.to_string(), runner.limit) {
         Ok(Answer::Rendered { .. }) => Outcome::Rendered,
         Ok(Answer::Unsupported { unsupported }) => Outcome::Unsupported(unsupported),
         Ok(Answer::Error { error }) => Outcome::Broken(error),

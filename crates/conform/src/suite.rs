@@ -3,13 +3,14 @@
 use crate::driver::{Driver, PictureFormat};
 use crate::job::Job;
 use crate::judge::{Finding, Rules, Verdict, judge};
-use crate::mitsuba_xml::{self, Mode};
+use crate::mitsuba_xml;
+use crate::mode::Mode;
 use crate::page::Run;
 use crate::pose::Freedom;
 use crate::question::Question;
 use crate::replicate::{self, Replicate};
 use crate::report::{Report, Row};
-use crate::runner::{self, Manner, Outcome};
+use crate::runner::{Outcome, Runner};
 use crate::tier::Tier;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -241,7 +242,7 @@ impl Suite {
                 .filter(|job| !job.picture(&self.folder).is_file())
                 .collect();
             (running.begin)(look as u32, jobs.len());
-            let manner = Manner {
+            let runner = Runner {
                 folder: &self.folder,
                 mode: self.mode,
                 workers: running.workers,
@@ -249,7 +250,7 @@ impl Suite {
                 done: running.done,
                 stop: running.stop,
             };
-            for (job, outcome) in runner::run(driver, &jobs, &manner) {
+            for (job, outcome) in runner.run(driver, &jobs) {
                 let verdict = match outcome {
                     Outcome::Rendered => continue,
                     Outcome::Unsupported(why) => Verdict::NotSupported(why),

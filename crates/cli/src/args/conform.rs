@@ -2,7 +2,7 @@
 
 use crate::arg_values::whole;
 use clap::{Args, Subcommand, ValueEnum};
-use etalon_conform::mitsuba_xml::Mode;
+use etalon_conform::mode::Mode;
 use etalon_conform::tier::Tier;
 use etalon_render::part::PartOfMany;
 use std::path::PathBuf;

@@ -135,7 +135,7 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mitsuba_xml::Mode;
+    use crate::mode::Mode;
     use crate::tier::Tier;
 
     #[test]

@@ -2,7 +2,7 @@
 
 use etalon_conform::driver::PictureFormat;
 use etalon_conform::judge::{Finding, Verdict};
-use etalon_conform::mitsuba_xml::Mode;
+use etalon_conform::mode::Mode;
 use etalon_conform::page::{Run, page};
 use etalon_conform::questions;
 use etalon_conform::report::{Report, Row};

@@ -4,7 +4,7 @@
 
 use etalon_conform::driver::{Driver, Programs};
 use etalon_conform::judge::Verdict;
-use etalon_conform::mitsuba_xml::Mode;
+use etalon_conform::mode::Mode;
 use etalon_conform::report::Report;
 use etalon_conform::suite::{Plan, Running, Suite};
 use etalon_conform::tier::Tier;
