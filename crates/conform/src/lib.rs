@@ -12,6 +12,7 @@ pub mod judge;
 pub mod mitsuba_xml;
 pub mod mode;
 pub mod page;
+pub mod plan;
 pub mod pose;
 pub mod question;
 pub mod questions;

@@ -1,7 +1,7 @@
 //! What was found of a program, as JSON and as a table.
 
 use crate::judge::{Finding, Verdict};
-use crate::suite::Plan;
+use crate::plan::Plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -65,6 +65,10 @@ impl Runner<'_> {
                     }
                     outcome => outcome,
                 };
+                if outcome != Outcome::Rendered {
+                    // Half a picture must not be taken for one by a later run.
+                    let _ = std::fs::remove_file(job.picture(self.folder));
+                }
                 (self.done)(job, &outcome);
                 own.push((index, job.clone(), outcome));
             }

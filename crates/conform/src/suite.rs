@@ -1,51 +1,23 @@
 //! A run: what is asked of a program, where its scenes and pictures are, and what was found so far.
 
-use crate::driver::{Driver, PictureFormat};
+use crate::driver::Driver;
 use crate::job::Job;
 use crate::judge::{Finding, Rules, Verdict, judge};
 use crate::mitsuba_xml;
 use crate::mode::Mode;
 use crate::page::Run;
+use crate::plan::Plan;
 use crate::pose::Freedom;
 use crate::question::Question;
 use crate::replicate::{self, Replicate};
 use crate::report::{Report, Row};
 use crate::runner::{Outcome, Runner};
 use crate::tier::Tier;
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
-
-/// What a run is; it stands in `plan.json` of its folder.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Plan {
-    /// The version of this file.
-    pub version: u32,
-    /// The seed of all poses.
-    pub suite_seed: u64,
-    /// The tier's name.
-    pub tier: String,
-    /// `measure` or `shipped`.
-    pub mode: String,
-    /// The driver's name.
-    pub program: String,
-    /// What the program says its version is.
-    pub program_version: String,
-    /// Whether every picture has a pose of its own.
-    pub pose_each: bool,
-    /// Whether the program looks for lights, so that it can be called too dark.
-    pub samples_lights: bool,
-    /// The format of pictures.
-    pub picture: PictureFormat,
-    /// The names of the questions.
-    pub questions: Vec<String>,
-    /// Part I of N of them is rendered, every Nth from the Ith on; the error rates are those of all.
-    pub part: [u32; 2],
-}
 
 /// A run in its folder.
 pub struct Suite {
@@ -74,43 +46,6 @@ pub struct Running<'a> {
     pub stop: &'a AtomicBool,
 }
 
-impl Plan {
-    /// The version of the file.
-    pub const VERSION: u32 = 1;
-
-    /// The questions of a tier whose names fit, to a program that takes seeds and is not known yet.
-    pub fn new(suite_seed: u64, tier: Tier, mode: Mode, fits: impl Fn(&str) -> bool) -> Self {
-        let asked = (crate::questions::ALL.iter())
-            .filter(|question| tier.asks(question) && fits(question.name));
-        Self {
-            version: Self::VERSION,
-            suite_seed,
-            tier: tier.name().to_owned(),
-            mode: mode.name().to_owned(),
-            program: "elsewhere".to_owned(),
-            program_version: String::new(),
-            pose_each: false,
-            samples_lights: true,
-            picture: PictureFormat::Exr,
-            questions: asked.map(|question| question.name.to_owned()).collect(),
-            part: [1, 1],
-        }
-    }
-
-    /// The same for a driver's program, of the version that it says.
-    #[must_use]
-    pub fn of(self, driver: &Driver, program_version: String) -> Self {
-        Self {
-            program: driver.description.name.clone(),
-            program_version,
-            pose_each: !driver.description.seed,
-            samples_lights: driver.description.samples_lights,
-            picture: driver.description.picture,
-            ..self
-        }
-    }
-}
-
 /// Poses of a question where seeds differ.
 const POSES: u32 = 2;
 
@@ -123,7 +58,7 @@ impl Suite {
         let folder = std::path::absolute(folder).map_err(|e| at(folder, &e))?;
         let file = folder.join("plan.json");
         if file.exists() {
-            let before = read_plan(&file)?;
+            let before = Plan::read(&file)?;
             if before != plan {
                 return Err(format!(
                     "{} holds another run ({} {}, tier {}, {} questions): give another folder",
@@ -146,7 +81,7 @@ impl Suite {
     /// If there is none, or it is of another version of this program.
     pub fn open(folder: &Path) -> Result<Self, String> {
         let folder = std::path::absolute(folder).map_err(|e| at(folder, &e))?;
-        let plan = read_plan(&folder.join("plan.json"))?;
+        let plan = Plan::read(&folder.join("plan.json"))?;
         Self::of(folder, plan)
     }
 
@@ -343,9 +278,4 @@ const REFUSALS: &str = "refusals.json";
 fn read_refusals(file: &Path) -> BTreeMap<String, Verdict> {
     let text = fs::read_to_string(file).unwrap_or_default();
     serde_json::from_str(&text).unwrap_or_default()
-}
-
-fn read_plan(file: &Path) -> Result<Plan, String> {
-    let text = fs::read_to_string(file).map_err(|e| at(file, &e))?;
-    serde_json::from_str(&text).map_err(|e| at(file, &e))
 }

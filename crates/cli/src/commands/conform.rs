@@ -5,9 +5,10 @@ use crate::args::{AskedArgs, ConformArgs, ConformCommand, ConformExportArgs, Con
 use crate::interrupt;
 use etalon_conform::driver::{Driver, Programs};
 use etalon_conform::page::{Run, page};
-use etalon_conform::report::Report;
+use etalon_conform::plan::Plan;
+use etalon_conform::report::{self, Report};
 use etalon_conform::runner::Outcome;
-use etalon_conform::suite::{Plan, Running, Suite};
+use etalon_conform::suite::{Running, Suite};
 use etalon_conform::{drivers, questions};
 use etalon_render::write_guard::{Destination, WriteGuard};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -131,6 +132,10 @@ fn ask(args: &ConformRunArgs) -> Result<ExitCode, String> {
     let mut suite = Suite::create(&output, plan.of(&driver, version))?;
     let places = places(&output, args.baseline.as_ref())?;
     let bar = progress(args.quiet);
+    // Pictures that are being rendered are waited for; the same command goes on with the others.
+    if let Err(error) = interrupt::listen() {
+        note(format!("a signal will end the process: {error}"));
+    }
     let stop = interrupt::flag();
     let workers = args
         .workers
@@ -156,6 +161,10 @@ fn ask(args: &ConformRunArgs) -> Result<ExitCode, String> {
         },
     );
     bar.finish_and_clear();
+    if interrupt::asked() {
+        note("stopped; the same command goes on from here");
+        return Ok(ExitCode::from(interrupt::STOPPED));
+    }
     keep(&suite, &report, &places)?;
     let mut code = report.conclusion().exit_code();
     let mut text = report.table();
@@ -251,7 +260,16 @@ fn together(reports: &[PathBuf], output: &Path) -> Result<ExitCode, String> {
 
 fn read_report(path: &Path) -> Result<Report, String> {
     let text = fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
-    serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))
+    let report: Report =
+        serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))?;
+    match report.version {
+        report::VERSION => Ok(report),
+        other => Err(format!(
+            "{}: version {other} of the report, and this program knows {}",
+            path.display(),
+            report::VERSION
+        )),
+    }
 }
 
 fn diff(old: &Path, new: &Path) -> Result<ExitCode, String> {

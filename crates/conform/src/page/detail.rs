@@ -3,7 +3,7 @@
 use super::{Asked, Program, anchor, dots, mark, matrix, number, pictures, reason};
 use crate::drivers;
 use crate::judge::{Finding, Rules, TILES, Verdict};
-use crate::suite::Plan;
+use crate::plan::Plan;
 use etalon_render::report::signed;
 use maud::{Markup, html};
 

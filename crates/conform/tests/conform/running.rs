@@ -5,8 +5,9 @@
 use etalon_conform::driver::{Driver, Programs};
 use etalon_conform::judge::Verdict;
 use etalon_conform::mode::Mode;
+use etalon_conform::plan::Plan;
 use etalon_conform::report::Report;
-use etalon_conform::suite::{Plan, Running, Suite};
+use etalon_conform::suite::{Running, Suite};
 use etalon_conform::tier::Tier;
 use std::fs;
 use std::path::Path;
@@ -48,6 +49,16 @@ fn run(folder: &Path, driver: &Driver) -> Result<Report, String> {
             stop: &AtomicBool::new(false),
         },
     ))
+}
+
+#[test]
+fn half_a_picture_is_not_left() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let script = "printf 'Pf\\n16 16\\n-1.0\\n' > \"$1\"; exit 9";
+    let half = driver(folder.path(), script, COMMAND).expect("a driver");
+    run(folder.path(), &half).expect("a run");
+    let left = fs::read_dir(folder.path().join("run/pictures")).expect("a folder");
+    assert_eq!(left.count(), 0);
 }
 
 /// Writes a picture of 16 × 16 pixels of 1.

@@ -1,0 +1,88 @@
+//! What a run is, before anything is rendered.
+
+use crate::driver::{Driver, PictureFormat};
+use crate::mode::Mode;
+use crate::tier::Tier;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// What a run is; it stands in `plan.json` of its folder.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// The version of this file.
+    pub version: u32,
+    /// The seed of all poses.
+    pub suite_seed: u64,
+    /// The tier's name.
+    pub tier: String,
+    /// `measure` or `shipped`.
+    pub mode: String,
+    /// The driver's name.
+    pub program: String,
+    /// What the program says its version is.
+    pub program_version: String,
+    /// Whether every picture has a pose of its own.
+    pub pose_each: bool,
+    /// Whether the program looks for lights, so that it can be called too dark.
+    pub samples_lights: bool,
+    /// The format of pictures.
+    pub picture: PictureFormat,
+    /// The names of the questions.
+    pub questions: Vec<String>,
+    /// Part I of N of them is rendered, every Nth from the Ith on; the error rates are those of all.
+    pub part: [u32; 2],
+}
+
+impl Plan {
+    /// The version of the file.
+    pub const VERSION: u32 = 1;
+
+    /// The questions of a tier whose names fit, to a program that takes seeds and is not known yet.
+    pub fn new(suite_seed: u64, tier: Tier, mode: Mode, fits: impl Fn(&str) -> bool) -> Self {
+        let asked = (crate::questions::ALL.iter())
+            .filter(|question| tier.asks(question) && fits(question.name));
+        Self {
+            version: Self::VERSION,
+            suite_seed,
+            tier: tier.name().to_owned(),
+            mode: mode.name().to_owned(),
+            program: "elsewhere".to_owned(),
+            program_version: String::new(),
+            pose_each: false,
+            samples_lights: true,
+            picture: PictureFormat::Exr,
+            questions: asked.map(|question| question.name.to_owned()).collect(),
+            part: [1, 1],
+        }
+    }
+
+    /// The same for a driver's program, of the version that it says.
+    #[must_use]
+    pub fn of(self, driver: &Driver, program_version: String) -> Self {
+        Self {
+            program: driver.description.name.clone(),
+            program_version,
+            pose_each: !driver.description.seed,
+            samples_lights: driver.description.samples_lights,
+            picture: driver.description.picture,
+            ..self
+        }
+    }
+    /// Reads one from a file.
+    ///
+    /// # Errors
+    /// One sentence.
+    pub(crate) fn read(file: &Path) -> Result<Self, String> {
+        let at = |error: &dyn std::fmt::Display| format!("{}: {error}", file.display());
+        let text = std::fs::read_to_string(file).map_err(|error| at(&error))?;
+        let plan: Self = serde_json::from_str(&text).map_err(|error| at(&error))?;
+        match plan.version {
+            Self::VERSION => Ok(plan),
+            other => Err(at(&format!(
+                "version {other} of the plan, and this program knows {}",
+                Self::VERSION
+            ))),
+        }
+    }
+}
