@@ -127,9 +127,14 @@ pub fn judge(truth: &Picture, replicates: &[Replicate], rules: &Rules) -> Findin
         )),
         Copies::None => with_noise(truth, replicates, &ratios, rules, &mut finding),
     };
-    if finding.verdict == Verdict::Differs {
-        finding.suspicion = suspicion::of(truth, replicates);
-    }
+    let alarm = rules.alarm / f64::from(rules.family);
+    finding.suspicion = match finding.verdict {
+        Verdict::Differs => {
+            suspicion::of(truth, replicates).or_else(|| poses_differ(&finding.replicates, alarm))
+        }
+        Verdict::Undecided(_) => poses_differ(&finding.replicates, alarm),
+        _ => None,
+    };
     finding
 }
 
@@ -293,6 +298,27 @@ fn interval(sample: &[f64], level: f64) -> Option<[f64; 2]> {
     judged
         .interval
         .map(|(interval, _)| [interval.low, interval.high])
+}
+
+/// Whether the first two poses are shown to differ, as no seed makes them.
+fn poses_differ(replicates: &[(u32, f64)], level: f64) -> Option<String> {
+    let of = |pose: u32| -> Vec<f64> {
+        let own = replicates.iter().filter(|(other, _)| *other == pose);
+        own.map(|(_, ratio)| ratio - 1.0).collect()
+    };
+    let [a, b] = [of(0), of(1)];
+    let plan = Resampling::independent(20_000, 1);
+    let limits = &Limits::DECLARED;
+    let judged = judgement::judge_difference(&a, &b, level, Symmetry::Unknown, limits, &plan)?;
+    let (interval, _) = judged.interval?;
+    let mean = |sample: &[f64]| 100.0 * sample.iter().sum::<f64>() / sample.len() as f64;
+    (!interval.contains(0.0)).then(|| {
+        format!(
+            "its poses differ, {:+.2} % and {:+.2} %: rounding, or something that depends on direction or size",
+            mean(&a),
+            mean(&b)
+        )
+    })
 }
 
 /// The tile that is farthest beyond its bound: column, row, and by how many bounds; `beyond` says by how many a sample of deviations, in

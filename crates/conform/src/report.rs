@@ -125,9 +125,11 @@ impl Report {
                 finding.verdict.word()
             );
             let reason = match &finding.verdict {
-                Verdict::Undecided(why) | Verdict::NotSupported(why) | Verdict::Broken(why) => {
-                    Some(why.clone())
-                }
+                Verdict::Undecided(why) => Some(match &finding.suspicion {
+                    Some(suspicion) => format!("{why}; {suspicion}"),
+                    None => why.clone(),
+                }),
+                Verdict::NotSupported(why) | Verdict::Broken(why) => Some(why.clone()),
                 Verdict::Differs => finding.suspicion.clone().or_else(|| {
                     let (column, row, _) = finding.tile?;
                     Some(format!("most in the tile of column {column}, row {row}"))

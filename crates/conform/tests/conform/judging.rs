@@ -176,6 +176,24 @@ fn heavy_tails_accuse_nobody_of_darkness() {
     assert_eq!(judged(&spotted(8.0)).verdict, Verdict::Differs);
 }
 
+/// One pose is 1.2 % too bright, the other right: that is said. Seeds of a sound program make no such difference.
+#[test]
+fn poses_that_differ_are_told() {
+    let mut replicates = sound(32, 0.02, 6);
+    for replicate in replicates
+        .iter_mut()
+        .filter(|replicate| replicate.pose == 1)
+    {
+        replicate
+            .luminance
+            .iter_mut()
+            .for_each(|pixel| *pixel *= 1.012);
+    }
+    let suspicion = judged(&replicates).suspicion.unwrap_or_default();
+    assert!(suspicion.contains("its poses differ"), "{suspicion}");
+    assert_eq!(judged(&sound(32, 2.0, 2)).suspicion, None);
+}
+
 /// A program that finds lights by chance alone is told so, and is not called too dark.
 #[test]
 fn who_finds_lights_by_chance_is_not_called_dark() {
