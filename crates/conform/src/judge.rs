@@ -8,7 +8,7 @@
 //! carries most of the light; a program whose light comes in flashes rarer than the pictures of a run cannot be told from a
 //! dark one.
 
-use crate::replicate::Replicate;
+use crate::replicate::{self, Replicate};
 use crate::suspicion;
 use crate::truth::Picture;
 use etalon_statistics::bootstrap::Resampling;
@@ -19,6 +19,9 @@ use serde::{Deserialize, Serialize};
 
 /// Tiles along a side of a picture.
 pub const TILES: u32 = 4;
+
+/// The relative difference of a tile beyond which a program differs, unless [`Rules`] say otherwise.
+pub const TILE_BOUND: f64 = 0.03;
 
 /// What is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +45,7 @@ impl Rules {
     pub fn new(questions: usize, looks: u32) -> Self {
         Self {
             bound: 0.005,
-            tile_bound: 0.03,
+            tile_bound: TILE_BOUND,
             miss: 1e-3,
             alarm: 1e-5,
             family: (questions as u32 * looks).max(1),
@@ -116,16 +119,22 @@ pub fn judge(truth: &Picture, replicates: &[Replicate], rules: &Rules) -> Findin
             .collect(),
         ..Finding::of(Verdict::Undecided(String::new()))
     };
-    finding.verdict = match copies(replicates) {
+    let asked = Asked {
+        truth,
+        replicates,
+        ratios: &ratios,
+        rules,
+    };
+    finding.verdict = match copies(replicates, truth.pixels) {
         Copies::All if noise(replicates) > rules.bound => Verdict::Broken(
             "all seeds gave the same bits, and not of a picture without noise: they are no replicates"
                 .to_owned(),
         ),
-        Copies::All => without_noise(truth, replicates, &ratios, rules, &mut finding),
+        Copies::All => asked.without_noise(&mut finding),
         Copies::Some(a, b) => Verdict::Broken(format!(
             "seeds {a} and {b} gave the same bits: they are no replicates"
         )),
-        Copies::None => with_noise(truth, replicates, &ratios, rules, &mut finding),
+        Copies::None => asked.with_noise(&mut finding),
     };
     let alarm = rules.alarm / f64::from(rules.family);
     finding.suspicion = match finding.verdict {
@@ -147,7 +156,10 @@ enum Copies {
     All,
 }
 
-fn copies(replicates: &[Replicate]) -> Copies {
+fn copies(replicates: &[Replicate], pixels: u32) -> Copies {
+    let Some(mean) = replicate::mean(replicates, pixels) else {
+        return Copies::None;
+    };
     let mut twins = None;
     let (mut pairs, mut same) = (0, 0);
     for (i, a) in replicates.iter().enumerate() {
@@ -156,8 +168,8 @@ fn copies(replicates: &[Replicate]) -> Copies {
             if a.is_copy_of(b) {
                 same += 1;
                 // Pictures without noise may well be the same by chance.
-                if twins.is_none() && difference(a, &mean_picture(replicates)) > NO_NOISE {
-                    twins = Some((b.seed, a.seed));
+                if difference(&a.luminance, &mean.means) > NO_NOISE {
+                    twins = twins.or(Some((b.seed, a.seed)));
                 }
             }
         }
@@ -169,28 +181,15 @@ fn copies(replicates: &[Replicate]) -> Copies {
     }
 }
 
-/// The mean of all pictures.
-fn mean_picture(replicates: &[Replicate]) -> Replicate {
-    let count = replicates.len() as f64;
-    let mean = |index: usize| replicates.iter().map(|r| r.luminance[index]).sum::<f64>() / count;
-    let pixels = replicates.first().map_or(0, |first| first.luminance.len());
-    Replicate {
-        pose: 0,
-        seed: 0,
-        luminance: (0..pixels).map(mean).collect(),
-    }
-}
-
 /// With less noise than this in a pixel, relative to the mean, pictures of different seeds may well be the same by chance.
 const NO_NOISE: f64 = 1e-3;
 
 /// The difference of two pictures, root mean square over pixels, relative to their mean.
-fn difference(a: &Replicate, b: &Replicate) -> f64 {
-    let pairs = a.luminance.iter().zip(&b.luminance);
-    let square: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
-    let mean = 0.5 * (a.mean() + b.mean()).abs();
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
+    let sum: f64 = a.iter().chain(b).sum();
     match square > 0.0 {
-        true => (square / a.luminance.len() as f64).sqrt() / mean,
+        true => (square * a.len() as f64).sqrt() / (0.5 * sum.abs()),
         false => 0.0,
     }
 }
@@ -203,7 +202,7 @@ fn noise(replicates: &[Replicate]) -> f64 {
     };
     others
         .iter()
-        .map(|other| difference(first, other))
+        .map(|other| difference(&first.luminance, &other.luminance))
         .fold(0.0, f64::max)
 }
 
@@ -211,83 +210,106 @@ fn noise(replicates: &[Replicate]) -> f64 {
 const FOUND_BY_CHANCE: &str =
     "too dark so far; but the program finds lights by chance alone, and may have missed some";
 
-/// Pictures that no seed changes are judged as they are.
-fn without_noise(
-    truth: &Picture,
-    replicates: &[Replicate],
-    ratios: &[f64],
-    rules: &Rules,
-    finding: &mut Finding,
-) -> Verdict {
-    let biases = ratios.iter().map(|ratio| ratio - 1.0);
-    let least = biases.clone().fold(f64::INFINITY, f64::min);
-    let most = biases.clone().fold(f64::NEG_INFINITY, f64::max);
-    finding.bias = Some(biases.sum::<f64>() / ratios.len() as f64);
-    finding.interval = Some([least, most]);
-    finding.run_interval = finding.interval;
-    if most < -rules.bound && !rules.darkness {
-        return Verdict::Undecided(FOUND_BY_CHANCE.to_owned());
-    }
-    let beyond = |sample: &[f64]| {
-        let off = sample.iter().find(|deviation| deviation.abs() > 1.0);
-        off.copied()
-    };
-    finding.tile = worst_tile(truth, replicates, rules, beyond);
-    let within = least >= -rules.bound && most <= rules.bound;
-    match within && finding.tile.is_none() {
-        true => Verdict::Agrees,
-        false => Verdict::Differs,
-    }
+/// A question with its answers.
+struct Asked<'a> {
+    truth: &'a Picture,
+    replicates: &'a [Replicate],
+    /// Their means over the truth's.
+    ratios: &'a [f64],
+    rules: &'a Rules,
 }
 
-fn with_noise(
-    truth: &Picture,
-    replicates: &[Replicate],
-    ratios: &[f64],
-    rules: &Rules,
-    finding: &mut Finding,
-) -> Verdict {
-    let biases: Vec<f64> = ratios.iter().map(|ratio| ratio - 1.0).collect();
-    let Some(summary) = Summary::of(&biases).filter(|_| biases.len() >= 3) else {
-        return Verdict::Undecided(format!("{} pictures are too few", biases.len()));
-    };
-    finding.bias = Some(summary.mean());
-    let family = f64::from(rules.family);
-    let tiles = f64::from(TILES * TILES);
-    let (miss, alarm) = (rules.miss / family, rules.alarm / (family * (1.0 + tiles)));
-    let at = |level: f64| interval(&biases, level);
-    finding.interval = at(0.05);
-    finding.run_interval = at(miss);
-    let of_picture = at(alarm);
-    let darkness = rules.darkness && of_picture.is_some();
-    let beyond_bound = |sample: &[f64]| {
-        let [low, high] = interval(sample, alarm)?;
-        let mean = sample.iter().sum::<f64>() / sample.len() as f64;
-        (low > 1.0 || darkness && high < -1.0).then_some(mean)
-    };
-    finding.tile = worst_tile(truth, replicates, rules, beyond_bound);
-    // Deviations that do not matter need no distribution.
-    if biases.iter().all(|bias| bias.abs() <= 0.1 * rules.bound) && finding.tile.is_none() {
-        return Verdict::Agrees;
-    }
-    let beyond = |[low, high]: [f64; 2]| low > rules.bound || darkness && high < -rules.bound;
-    let too_bright = e_value::exceeds(ratios, 1.0 + rules.bound) >= 1.0 / alarm;
-    if of_picture.is_some_and(beyond) || too_bright || finding.tile.is_some() {
-        return Verdict::Differs;
-    }
-    match finding.run_interval {
-        Some([low, high]) if low >= -rules.bound && high <= rules.bound => Verdict::Agrees,
-        Some([_, high]) if high < -rules.bound && !rules.darkness => {
+impl Asked<'_> {
+    /// Pictures that no seed changes are judged as they are.
+    fn without_noise(&self, finding: &mut Finding) -> Verdict {
+        let rules = self.rules;
+        let biases = self.ratios.iter().map(|ratio| ratio - 1.0);
+        let least = biases.clone().fold(f64::INFINITY, f64::min);
+        let most = biases.clone().fold(f64::NEG_INFINITY, f64::max);
+        finding.bias = Some(biases.sum::<f64>() / self.ratios.len() as f64);
+        finding.interval = Some([least, most]);
+        finding.run_interval = finding.interval;
+        finding.tile = self.worst_tile(|sample| {
+            let beyond = |off: &&f64| **off > 1.0 || rules.darkness && **off < -1.0;
+            sample.iter().find(beyond).copied()
+        });
+        let too_dark = least < -rules.bound;
+        if most > rules.bound || too_dark && rules.darkness || finding.tile.is_some() {
+            Verdict::Differs
+        } else if too_dark {
             Verdict::Undecided(FOUND_BY_CHANCE.to_owned())
+        } else {
+            Verdict::Agrees
         }
-        Some([low, high]) => Verdict::Undecided(format!(
-            "the interval is ± {:.2} % wide at the level of the run",
-            50.0 * (high - low)
-        )),
-        None => Verdict::Undecided(
-            "a few pictures carry most of the light, and no test reaches the level of the run"
-                .to_owned(),
-        ),
+    }
+
+    fn with_noise(&self, finding: &mut Finding) -> Verdict {
+        let rules = self.rules;
+        let biases: Vec<f64> = self.ratios.iter().map(|ratio| ratio - 1.0).collect();
+        let Some(summary) = Summary::of(&biases).filter(|_| biases.len() >= 3) else {
+            return Verdict::Undecided(format!("{} pictures are too few", biases.len()));
+        };
+        finding.bias = Some(summary.mean());
+        let family = f64::from(rules.family);
+        let tiles = f64::from(TILES * TILES);
+        let (miss, alarm) = (rules.miss / family, rules.alarm / (family * (1.0 + tiles)));
+        let at = |level: f64| interval(&biases, level);
+        finding.interval = at(0.05);
+        finding.run_interval = at(miss);
+        let of_picture = at(alarm);
+        let darkness = rules.darkness && of_picture.is_some();
+        finding.tile = self.worst_tile(|sample| {
+            let [low, high] = interval(sample, alarm)?;
+            let mean = sample.iter().sum::<f64>() / sample.len() as f64;
+            (low > 1.0 || darkness && high < -1.0).then_some(mean)
+        });
+        // Deviations that do not matter need no distribution.
+        if biases.iter().all(|bias| bias.abs() <= 0.1 * rules.bound) && finding.tile.is_none() {
+            return Verdict::Agrees;
+        }
+        let beyond = |[low, high]: [f64; 2]| low > rules.bound || darkness && high < -rules.bound;
+        let too_bright = e_value::exceeds(self.ratios, 1.0 + rules.bound) >= 1.0 / alarm;
+        if of_picture.is_some_and(beyond) || too_bright || finding.tile.is_some() {
+            return Verdict::Differs;
+        }
+        match finding.run_interval {
+            Some([low, high]) if low >= -rules.bound && high <= rules.bound => Verdict::Agrees,
+            Some([_, high]) if high < -rules.bound && !rules.darkness => {
+                Verdict::Undecided(FOUND_BY_CHANCE.to_owned())
+            }
+            Some([low, high]) => Verdict::Undecided(format!(
+                "the interval is ± {:.2} % wide at the level of the run",
+                50.0 * (high - low)
+            )),
+            None => Verdict::Undecided(
+                "a few pictures carry most of the light, and no test reaches the level of the run"
+                    .to_owned(),
+            ),
+        }
+    }
+
+    /// The tile that is farthest beyond its bound: column, row, and by how many bounds; `beyond` says by how many a sample of
+    /// deviations, in bounds, is shown to be, if it is.
+    fn worst_tile(&self, beyond: impl Fn(&[f64]) -> Option<f64>) -> Option<(u32, u32, f64)> {
+        let Self {
+            truth,
+            replicates,
+            rules,
+            ..
+        } = self;
+        let deviation = |place: u32| {
+            let [column, row] = [place % TILES, place / TILES];
+            let known = tile_mean(&truth.means, truth.pixels, [column, row]);
+            let bound = rules.tile_bound * known + rules.bound * truth.mean();
+            let off = |replicate: &Replicate| {
+                (tile_mean(&replicate.luminance, truth.pixels, [column, row]) - known) / bound
+            };
+            let sample: Vec<f64> = replicates.iter().map(off).collect();
+            Some((column, row, beyond(&sample)?))
+        };
+        (0..TILES * TILES)
+            .filter_map(deviation)
+            .max_by(|(.., a), (.., b)| a.abs().total_cmp(&b.abs()))
     }
 }
 
@@ -319,29 +341,6 @@ fn poses_differ(replicates: &[(u32, f64)], level: f64) -> Option<String> {
             mean(&b)
         )
     })
-}
-
-/// The tile that is farthest beyond its bound: column, row, and by how many bounds; `beyond` says by how many a sample of deviations, in
-/// bounds, is shown to be, if it is.
-fn worst_tile(
-    truth: &Picture,
-    replicates: &[Replicate],
-    rules: &Rules,
-    beyond: impl Fn(&[f64]) -> Option<f64>,
-) -> Option<(u32, u32, f64)> {
-    let deviation = |place: u32| {
-        let [column, row] = [place % TILES, place / TILES];
-        let known = tile_mean(&truth.means, truth.pixels, [column, row]);
-        let bound = rules.tile_bound * known + rules.bound * truth.mean();
-        let sample: Vec<f64> = replicates
-            .iter()
-            .map(|r| (tile_mean(&r.luminance, truth.pixels, [column, row]) - known) / bound)
-            .collect();
-        Some((column, row, beyond(&sample)?))
-    };
-    (0..TILES * TILES)
-        .filter_map(deviation)
-        .max_by(|(.., a), (.., b)| a.abs().total_cmp(&b.abs()))
 }
 
 /// The mean of a tile of a picture.

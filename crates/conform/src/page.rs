@@ -83,12 +83,12 @@ impl Program<'_> {
 fn programs<'a>(runs: &'a [Run<'a>]) -> Vec<Program<'a>> {
     let full = |run: &Run<'_>| {
         let plan = &run.report.plan;
-        format!("{} {}", run.report.program, plan.program_version)
+        format!("{} {}", plan.title, plan.program_version)
     };
     let count = |same: &dyn Fn(&Run<'_>) -> bool| runs.iter().filter(|run| same(run)).count();
     let name = |(index, run): (usize, &Run<'_>)| {
-        if count(&|other| other.report.program == run.report.program) == 1 {
-            run.report.program.clone()
+        if count(&|other| other.report.plan.title == run.report.plan.title) == 1 {
+            run.report.plan.title.clone()
         } else if count(&|other| full(other) == full(run)) == 1 {
             full(run)
         } else {
@@ -176,21 +176,6 @@ fn mark(word: &str) -> Markup {
             (word)
         }
     }
-}
-
-/// Why a verdict is what it is, if it says so.
-fn reason(verdict: &Verdict) -> Option<&str> {
-    match verdict {
-        Verdict::Undecided(why) | Verdict::NotSupported(why) | Verdict::Broken(why) => Some(why),
-        Verdict::Agrees | Verdict::Differs => None,
-    }
-}
-
-/// How many questions of a report have this verdict.
-fn count(report: &Report, word: &str) -> usize {
-    let rows = report.rows.iter();
-    rows.filter(|row| row.finding.verdict.word() == word)
-        .count()
 }
 
 /// A number in few characters.

@@ -4,6 +4,7 @@ use crate::driver::{Driver, PictureFormat};
 use crate::mode::Mode;
 use crate::tier::Tier;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// What a run is; it stands in `plan.json` of its folder.
@@ -14,12 +15,14 @@ pub struct Plan {
     pub version: u32,
     /// The seed of all poses.
     pub suite_seed: u64,
-    /// The tier's name.
-    pub tier: String,
-    /// `measure` or `shipped`.
-    pub mode: String,
+    /// How much is rendered.
+    pub tier: Tier,
+    /// What the program leaves out.
+    pub mode: Mode,
     /// The driver's name.
     pub program: String,
+    /// The program's name in full.
+    pub title: String,
     /// What the program says its version is.
     pub program_version: String,
     /// Whether every picture has a pose of its own.
@@ -30,13 +33,18 @@ pub struct Plan {
     pub picture: PictureFormat,
     /// The names of the questions.
     pub questions: Vec<String>,
-    /// Part I of N of them is rendered, every Nth from the Ith on; the error rates are those of all.
+    /// What the driver says of units and the like.
+    pub conventions: BTreeMap<String, serde_json::Value>,
+    /// Part I of N of the questions is rendered, every Nth from the Ith on; the error rates are those of all.
     pub part: [u32; 2],
 }
 
 impl Plan {
     /// The version of the file.
     pub const VERSION: u32 = 1;
+
+    /// The name of a program without a driver, which renders elsewhere.
+    pub const ELSEWHERE: &'static str = "elsewhere";
 
     /// The questions of a tier whose names fit, to a program that takes seeds and is not known yet.
     pub fn new(suite_seed: u64, tier: Tier, mode: Mode, fits: impl Fn(&str) -> bool) -> Self {
@@ -45,14 +53,16 @@ impl Plan {
         Self {
             version: Self::VERSION,
             suite_seed,
-            tier: tier.name().to_owned(),
-            mode: mode.name().to_owned(),
-            program: "elsewhere".to_owned(),
+            tier,
+            mode,
+            program: Self::ELSEWHERE.to_owned(),
+            title: "another program".to_owned(),
             program_version: String::new(),
             pose_each: false,
             samples_lights: true,
             picture: PictureFormat::Exr,
             questions: asked.map(|question| question.name.to_owned()).collect(),
+            conventions: BTreeMap::new(),
             part: [1, 1],
         }
     }
@@ -62,6 +72,8 @@ impl Plan {
     pub fn of(self, driver: &Driver, program_version: String) -> Self {
         Self {
             program: driver.description.name.clone(),
+            title: driver.description.title.clone(),
+            conventions: driver.description.conventions.clone(),
             program_version,
             pose_each: !driver.description.seed,
             samples_lights: driver.description.samples_lights,

@@ -32,7 +32,8 @@ impl std::fmt::Debug for Question {
 impl Question {
     /// The scene in pose number `index` of a suite's seed, and its picture, which no pose changes.
     pub fn posed(&self, seed: u64, index: u32) -> (Scene, Picture) {
-        let (scene, truth) = (self.ask)();
+        let (mut scene, truth) = (self.ask)();
+        scene.question = self.name.to_owned();
         let pose = Pose::draw(seed ^ name_hash(self.name), index, self.freedom);
         (scene.posed(&pose), truth)
     }

@@ -1,11 +1,8 @@
 //! What a program answered: a picture as luminances.
 
 use crate::truth::Picture;
-use etalon_images::{exr, raster_file};
+use etalon_images::{Chromaticities, exr, raster_file};
 use std::path::Path;
-
-/// Luminance of linear Rec. 709.
-const LUMINANCE: [f64; 3] = [0.212_639, 0.715_169, 0.072_192];
 
 /// A picture of one pose with one seed.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,13 +37,11 @@ impl Replicate {
             .needed_colour(path)
             .map_err(|error| error.to_string())?;
         let [r, g, b] = &colour.planes;
+        let weights = Chromaticities::REC_709.luminance_weights();
         let luminance: Vec<f64> = (0..r.len())
             .map(|i| {
                 let rgb = [r[i], g[i], b[i]].map(f64::from);
-                rgb.iter()
-                    .zip(LUMINANCE)
-                    .map(|(c, weight)| c * weight)
-                    .sum()
+                rgb.iter().zip(weights).map(|(c, weight)| c * weight).sum()
             })
             .collect();
         if let Some(index) = luminance.iter().position(|value| !value.is_finite()) {

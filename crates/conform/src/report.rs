@@ -3,7 +3,6 @@
 use crate::judge::{Finding, Verdict};
 use crate::plan::Plan;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The version of the JSON.
@@ -15,14 +14,10 @@ pub const VERSION: u32 = 1;
 pub struct Report {
     /// [`VERSION`].
     pub version: u32,
-    /// The program's name in full.
-    pub program: String,
     /// What was asked.
     pub plan: Plan,
     /// δ.
     pub bound: f64,
-    /// What its driver says of units.
-    pub conventions: BTreeMap<String, serde_json::Value>,
     /// A row for each question.
     pub rows: Vec<Row>,
 }
@@ -73,25 +68,35 @@ impl Verdict {
             Self::Broken(_) => "broken",
         }
     }
+
+    /// Why, if it says so.
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Undecided(why) | Self::NotSupported(why) | Self::Broken(why) => Some(why),
+            Self::Agrees | Self::Differs => None,
+        }
+    }
 }
 
 impl Report {
+    /// How many questions have the verdict of this word.
+    pub fn count(&self, word: &str) -> usize {
+        let rows = self.rows.iter();
+        rows.filter(|row| row.finding.verdict.word() == word)
+            .count()
+    }
+
     /// How the run ended.
     pub fn conclusion(&self) -> Conclusion {
-        let any = |word: &str| {
-            self.rows
-                .iter()
-                .any(|row| row.finding.verdict.word() == word)
-        };
-        if any("differs") {
-            Conclusion::Differs
-        } else if any("broken") {
-            Conclusion::Broken
-        } else if any("undecided") {
-            Conclusion::Undecided
-        } else {
-            Conclusion::Agrees
-        }
+        let worst = [
+            ("differs", Conclusion::Differs),
+            ("broken", Conclusion::Broken),
+            ("undecided", Conclusion::Undecided),
+        ];
+        let mut found = worst.iter().filter(|(word, _)| self.count(word) > 0);
+        found
+            .next()
+            .map_or(Conclusion::Agrees, |(_, conclusion)| *conclusion)
     }
 
     /// As a table, with a line of counts.
@@ -104,7 +109,7 @@ impl Report {
             .unwrap_or(0);
         let mut text = format!(
             "{} ({}), {} questions, within {} %\n\n",
-            self.program,
+            self.plan.title,
             self.plan.program_version,
             self.rows.len(),
             100.0 * self.bound
@@ -124,26 +129,17 @@ impl Report {
                 row.question,
                 finding.verdict.word()
             );
-            let reason = match &finding.verdict {
-                Verdict::Undecided(why) => Some(match &finding.suspicion {
-                    Some(suspicion) => format!("{why}; {suspicion}"),
-                    None => why.clone(),
-                }),
-                Verdict::NotSupported(why) | Verdict::Broken(why) => Some(why.clone()),
-                Verdict::Differs => finding.suspicion.clone().or_else(|| {
-                    let (column, row, _) = finding.tile?;
-                    Some(format!("most in the tile of column {column}, row {row}"))
-                }),
-                Verdict::Agrees => None,
+            let tile = || {
+                let (column, row, _) = finding.tile?;
+                Some(format!("most in the tile of column {column}, row {row}"))
             };
-            let _ = writeln!(text, "{}", reason.unwrap_or_default().trim_end());
+            let reason = finding.verdict.reason().map(str::to_owned);
+            let looks = finding.suspicion.clone().or_else(tile);
+            let reason: Vec<String> = reason.into_iter().chain(looks).collect();
+            let _ = writeln!(text, "{}", reason.join("; "));
         }
-        let count = |word: &str| {
-            let of = |row: &&Row| row.finding.verdict.word() == word;
-            self.rows.iter().filter(of).count()
-        };
         let words = ["agrees", "differs", "undecided", "not supported", "broken"];
-        let counts = words.map(|word| (count(word), word));
+        let counts = words.map(|word| (self.count(word), word));
         let counts = counts.iter().filter(|(count, _)| *count > 0);
         let counts: Vec<_> = counts
             .map(|(count, word)| format!("{count} {word}"))

@@ -4,13 +4,13 @@ use crate::driver::Driver;
 use crate::job::Job;
 use crate::mode::Mode;
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// What became of a job.
@@ -24,12 +24,8 @@ pub enum Outcome {
     Broken(String),
 }
 
-/// Runs jobs.
+/// How jobs are run.
 pub struct Runner<'a> {
-    /// The folder with scenes and pictures, an absolute path.
-    pub folder: &'a Path,
-    /// What the program is to leave out.
-    pub mode: Mode,
     /// Jobs at a time, each with one thread.
     pub workers: usize,
     /// The longest that a job may take.
@@ -40,14 +36,46 @@ pub struct Runner<'a> {
     pub stop: &'a AtomicBool,
 }
 
+/// Where scenes and pictures are (an absolute path), and what the program is to leave out.
+#[derive(Clone, Copy)]
+pub(crate) struct Place<'a> {
+    pub(crate) folder: &'a Path,
+    pub(crate) mode: Mode,
+}
+
+impl Place<'_> {
+    fn values(&self, job: &Job) -> BTreeMap<&'static str, String> {
+        job.values(self.folder, 1, self.mode)
+    }
+
+    /// The command for a job, or why there is none.
+    fn command(&self, driver: &Driver, job: &Job) -> Result<Vec<String>, Outcome> {
+        let values = self.values(job);
+        let words = &driver.description.command;
+        let asks_for_xml = words.iter().any(|word| word.contains("{xml}"));
+        if asks_for_xml && !Path::new(&values["xml"]).is_file() {
+            let why = "Mitsuba's format cannot say what is in the scene";
+            return Err(Outcome::Unsupported(why.to_owned()));
+        }
+        driver.command(&values).map_err(Outcome::Broken)
+    }
+}
+
 impl Runner<'_> {
-    /// Runs the jobs; what became of each, in their order. Jobs that were not begun are missing.
-    pub fn run(&self, driver: &Driver, jobs: &[Job]) -> Vec<(Job, Outcome)> {
+    /// Runs the jobs; what became of each, in their order. Jobs that were not begun are missing: after a stop, and those of a question
+    /// that the program cannot express.
+    pub(crate) fn run(
+        &self,
+        driver: &Driver,
+        jobs: &[Job],
+        place: Place<'_>,
+    ) -> Vec<(Job, Outcome)> {
         let next = Mutex::new(0..jobs.len());
+        let unsupported = Mutex::new(BTreeSet::new());
         let take = || {
-            let mut next = next.lock().unwrap_or_else(|error| error.into_inner());
+            let mut next = locked(&next);
             (!self.stop.load(Ordering::Relaxed))
-                .then(|| next.next())
+                .then(|| next.find(|index| !locked(&unsupported).contains(&jobs[*index].question)))
                 .flatten()
         };
         let work = || {
@@ -55,19 +83,23 @@ impl Runner<'_> {
             let mut batch: Option<Batch> = None;
             while let Some(index) = take() {
                 let job = &jobs[index];
+                let picture = job.picture(place.folder);
                 let outcome = match driver.description.batch {
-                    true => in_batch(driver, &mut batch, job, self),
-                    false => alone(driver, job, self),
+                    true => self.in_batch(driver, &mut batch, job, place),
+                    false => self.alone(driver, job, place),
                 };
                 let outcome = match outcome {
-                    Outcome::Rendered if !job.picture(self.folder).is_file() => {
+                    Outcome::Rendered if !picture.is_file() => {
                         Outcome::Broken("it wrote no picture".to_owned())
                     }
                     outcome => outcome,
                 };
                 if outcome != Outcome::Rendered {
                     // Half a picture must not be taken for one by a later run.
-                    let _ = std::fs::remove_file(job.picture(self.folder));
+                    let _ = std::fs::remove_file(picture);
+                }
+                if let Outcome::Unsupported(_) = outcome {
+                    locked(&unsupported).insert(job.question.clone());
                 }
                 (self.done)(job, &outcome);
                 own.push((index, job.clone(), outcome));
@@ -86,25 +118,71 @@ impl Runner<'_> {
             .map(|(_, job, outcome)| (job, outcome))
             .collect()
     }
-}
 
-fn values(job: &Job, runner: &Runner<'_>) -> BTreeMap<&'static str, String> {
-    job.values(runner.folder, 1, runner.mode)
-}
-
-/// The command for a job, or why there is none.
-fn command(driver: &Driver, job: &Job, runner: &Runner<'_>) -> Result<Vec<String>, Outcome> {
-    let values = values(job, runner);
-    let asks_for_xml = driver
-        .description
-        .command
-        .iter()
-        .any(|word| word.contains("{xml}"));
-    if asks_for_xml && !Path::new(&values["xml"]).is_file() {
-        let why = "Mitsuba's format cannot say what is in the scene";
-        return Err(Outcome::Unsupported(why.to_owned()));
+    /// A program that renders one picture and ends.
+    fn alone(&self, driver: &Driver, job: &Job, place: Place<'_>) -> Outcome {
+        let child = place
+            .command(driver, job)
+            .and_then(|words| start(&words, Stdio::null(), Stdio::null()).map_err(Outcome::Broken));
+        let mut child = match child {
+            Ok(child) => child,
+            Err(outcome) => return outcome,
+        };
+        let said = child.stderr.take().map(listen);
+        let begin = Instant::now();
+        let status = loop {
+            match child.try_wait() {
+                Ok(Some(status)) => break status,
+                Ok(None) if begin.elapsed() < self.limit => {
+                    std::thread::sleep(Duration::from_millis(2));
+                }
+                Ok(None) => {
+                    end(&mut child);
+                    return too_slow(self.limit);
+                }
+                Err(error) => return Outcome::Broken(error.to_string()),
+            }
+        };
+        let said = said.and_then(|said| said.recv().ok()).unwrap_or_default();
+        match status.code() {
+            Some(0) => Outcome::Rendered,
+            Some(3) => Outcome::Unsupported(last_line(&said)),
+            _ => Outcome::Broken(format!("{status}: {}", last_line(&said))),
+        }
     }
-    driver.command(&values).map_err(Outcome::Broken)
+
+    /// A program that goes on to the next job.
+    fn in_batch(
+        &self,
+        driver: &Driver,
+        batch: &mut Option<Batch>,
+        job: &Job,
+        place: Place<'_>,
+    ) -> Outcome {
+        let running = match batch.take().map_or_else(|| Batch::start(driver), Ok) {
+            Ok(running) => batch.insert(running),
+            Err(message) => return Outcome::Broken(message),
+        };
+        let mut line = serde_json::to_value(place.values(job)).expect("words");
+        for (name, value) in [("samples", job.samples), ("seed", job.seed), ("threads", 1)] {
+            line[name] = value.into();
+        }
+        match running.ask(&line.to_string(), self.limit) {
+            Ok(Answer::Rendered { .. }) => Outcome::Rendered,
+            Ok(Answer::Unsupported { unsupported }) => Outcome::Unsupported(unsupported),
+            Ok(Answer::Error { error }) => Outcome::Broken(error),
+            Err(outcome) => {
+                // The next job begins with another process.
+                *batch = None;
+                outcome
+            }
+        }
+    }
+}
+
+/// What a worker that has panicked left behind is whole all the same.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Starts a program, whose standard error is kept.
@@ -136,37 +214,6 @@ fn listen(stream: impl Read + Send + 'static) -> Receiver<String> {
 fn last_line(said: &str) -> String {
     let line = said.trim().lines().last().unwrap_or("it says nothing");
     line.to_owned()
-}
-
-/// A program that renders one picture and ends.
-fn alone(driver: &Driver, job: &Job, runner: &Runner<'_>) -> Outcome {
-    let child = command(driver, job, runner)
-        .and_then(|words| start(&words, Stdio::null(), Stdio::null()).map_err(Outcome::Broken));
-    let mut child = match child {
-        Ok(child) => child,
-        Err(outcome) => return outcome,
-    };
-    let said = child.stderr.take().map(listen);
-    let begin = Instant::now();
-    let status = loop {
-        match child.try_wait() {
-            Ok(Some(status)) => break status,
-            Ok(None) if begin.elapsed() < runner.limit => {
-                std::thread::sleep(Duration::from_millis(2));
-            }
-            Ok(None) => {
-                end(&mut child);
-                return too_slow(runner.limit);
-            }
-            Err(error) => return Outcome::Broken(error.to_string()),
-        }
-    };
-    let said = said.and_then(|said| said.recv().ok()).unwrap_or_default();
-    match status.code() {
-        Some(0) => Outcome::Rendered,
-        Some(3) => Outcome::Unsupported(last_line(&said)),
-        _ => Outcome::Broken(format!("{status}: {}", last_line(&said))),
-    }
 }
 
 fn too_slow(limit: Duration) -> Outcome {
@@ -250,27 +297,6 @@ impl Batch {
                 let said = last_line(&said.unwrap_or_default());
                 Err(broken(format!("it ended: {said}")))
             }
-        }
-    }
-}
-
-fn in_batch(driver: &Driver, batch: &mut Option<Batch>, job: &Job, runner: &Runner<'_>) -> Outcome {
-    let running = match batch.take().map_or_else(|| Batch::start(driver), Ok) {
-        Ok(running) => batch.insert(running),
-        Err(message) => return Outcome::Broken(message),
-    };
-    let mut line = serde_json::to_value(values(job, runner)).expect("words");
-    for (name, value) in [("samples", job.samples), ("seed", job.seed), ("threads", 1)] {
-        line[name] = value.into();
-    }
-    match running.ask(&line.to_string(), runner.limit) {
-        Ok(Answer::Rendered { .. }) => Outcome::Rendered,
-        Ok(Answer::Unsupported { unsupported }) => Outcome::Unsupported(unsupported),
-        Ok(Answer::Error { error }) => Outcome::Broken(error),
-        Err(outcome) => {
-            // The next job begins with another process.
-            *batch = None;
-            outcome
         }
     }
 }

@@ -4,20 +4,16 @@ use crate::driver::Driver;
 use crate::job::Job;
 use crate::judge::{Finding, Rules, Verdict, judge};
 use crate::mitsuba_xml;
-use crate::mode::Mode;
 use crate::page::Run;
 use crate::plan::Plan;
 use crate::pose::Freedom;
 use crate::question::Question;
 use crate::replicate::{self, Replicate};
 use crate::report::{Report, Row};
-use crate::runner::{Outcome, Runner};
-use crate::tier::Tier;
+use crate::runner::{Outcome, Place, Runner};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
-use std::time::Duration;
 
 /// A run in its folder.
 pub struct Suite {
@@ -26,24 +22,8 @@ pub struct Suite {
     /// What it is.
     pub plan: Plan,
     questions: Vec<&'static Question>,
-    tier: Tier,
-    mode: Mode,
     /// What is known of questions without pictures.
     refusals: BTreeMap<String, Verdict>,
-}
-
-/// How a run is made.
-pub struct Running<'a> {
-    /// Pictures at a time.
-    pub workers: usize,
-    /// The longest that one may take.
-    pub limit: Duration,
-    /// Called before a look with the number of its pictures.
-    pub begin: &'a (dyn Fn(u32, usize) + Sync),
-    /// Called when a picture is there, or cannot be had.
-    pub done: &'a (dyn Fn(&Job, &Outcome) + Sync),
-    /// Set when it is to end soon.
-    pub stop: &'a AtomicBool,
 }
 
 /// Poses of a question where seeds differ.
@@ -63,9 +43,9 @@ impl Suite {
                 return Err(format!(
                     "{} holds another run ({} {}, tier {}, {} questions): give another folder",
                     folder.display(),
-                    before.program,
+                    before.title,
                     before.program_version,
-                    before.tier,
+                    before.tier.name(),
                     before.questions.len()
                 ));
             }
@@ -86,11 +66,6 @@ impl Suite {
     }
 
     fn of(folder: PathBuf, plan: Plan) -> Result<Self, String> {
-        let tier = Tier::ALL.iter().find(|(name, _)| *name == plan.tier);
-        let (_, tier) = tier.ok_or_else(|| format!("there is no tier `{}`", plan.tier))?;
-        let modes = [Mode::Measure, Mode::Shipped];
-        let mode = modes.into_iter().find(|mode| mode.name() == plan.mode);
-        let mode = mode.ok_or_else(|| format!("there is no mode `{}`", plan.mode))?;
         let question = |name: &String| {
             crate::questions::by_name(name).ok_or_else(|| format!("there is no question `{name}`"))
         };
@@ -103,8 +78,6 @@ impl Suite {
         }
         Ok(Self {
             questions: questions.into_iter().skip(part - 1).step_by(of).collect(),
-            tier: *tier,
-            mode,
             refusals: read_refusals(&folder.join(REFUSALS)),
             folder,
             plan,
@@ -122,7 +95,7 @@ impl Suite {
                 let (scene, _) = question.posed(self.plan.suite_seed, pose);
                 let name = format!("{}-pose{pose}", question.name);
                 let mut files = vec![(format!("{name}.json"), scene.to_json())];
-                if let Ok(xml) = mitsuba_xml::write(&scene, &name, self.mode) {
+                if let Ok(xml) = mitsuba_xml::write(&scene, &name, self.plan.mode) {
                     files.push((format!("{name}.xml"), xml.text));
                     files.extend(xml.files);
                 }
@@ -140,7 +113,7 @@ impl Suite {
     /// How many poses there are of a question.
     fn poses(&self, question: &Question) -> u32 {
         match self.plan.pose_each || question.freedom == Freedom::EachAnew {
-            true => self.tier.looks().iter().copied().max().unwrap_or(1),
+            true => self.plan.tier.most(),
             false => POSES,
         }
     }
@@ -160,32 +133,33 @@ impl Suite {
 
     /// All pictures of the first look, for whoever renders them elsewhere.
     pub fn first_look(&self) -> Vec<Job> {
-        let count = self.tier.looks().first().copied().unwrap_or(0);
+        let count = self.plan.tier.looks().first().copied().unwrap_or(0);
         (self.questions.iter())
             .flat_map(|question| self.jobs(question, count))
             .collect()
     }
 
-    /// Renders what is missing, look by look, and judges it. What fails is told of its question.
-    pub fn run(&mut self, driver: &Driver, running: &Running<'_>) -> Report {
+    /// Renders what is missing, look by look, and judges it; `begin` is called before each with its number and that of its pictures. What fails is told of its question.
+    pub fn run(
+        &mut self,
+        driver: &Driver,
+        runner: &Runner<'_>,
+        begin: impl Fn(usize, usize),
+    ) -> Report {
         self.refusals.clear();
         let mut open = self.questions.clone();
-        for (look, count) in self.tier.looks().iter().enumerate() {
+        for (look, count) in self.plan.tier.looks().iter().enumerate() {
             let jobs: Vec<Job> = open
                 .iter()
                 .flat_map(|question| self.jobs(question, *count))
                 .filter(|job| !job.picture(&self.folder).is_file())
                 .collect();
-            (running.begin)(look as u32, jobs.len());
-            let runner = Runner {
+            begin(look, jobs.len());
+            let place = Place {
                 folder: &self.folder,
-                mode: self.mode,
-                workers: running.workers,
-                limit: running.limit,
-                done: running.done,
-                stop: running.stop,
+                mode: self.plan.mode,
             };
-            for (job, outcome) in runner.run(driver, &jobs) {
+            for (job, outcome) in runner.run(driver, &jobs, place) {
                 let verdict = match outcome {
                     Outcome::Rendered => continue,
                     Outcome::Unsupported(why) => Verdict::NotSupported(why),
@@ -198,21 +172,19 @@ impl Suite {
         let refusals = serde_json::to_string_pretty(&self.refusals).expect("words");
         // Without this file the questions are undecided when they are judged again.
         let _ = fs::write(self.folder.join(REFUSALS), refusals);
-        self.judge(&driver.description.title, &driver.description.conventions)
+        self.judge()
     }
 
     /// What the pictures of the folder say, whoever rendered them.
-    pub fn judge(&self, title: &str, conventions: &BTreeMap<String, serde_json::Value>) -> Report {
+    pub fn judge(&self) -> Report {
         let rows = self.questions.iter().map(|question| Row {
             question: question.name.to_owned(),
             finding: self.finding(question),
         });
         Report {
             version: crate::report::VERSION,
-            program: title.to_owned(),
             plan: self.plan.clone(),
             bound: self.rules().bound,
-            conventions: conventions.clone(),
             rows: rows.collect(),
         }
     }
@@ -220,7 +192,10 @@ impl Suite {
     fn rules(&self) -> Rules {
         Rules {
             darkness: self.plan.samples_lights,
-            ..Rules::new(self.plan.questions.len(), self.tier.looks().len() as u32)
+            ..Rules::new(
+                self.plan.questions.len(),
+                self.plan.tier.looks().len() as u32,
+            )
         }
     }
 
@@ -238,9 +213,8 @@ impl Suite {
 
     /// The pictures of a question that there are.
     fn replicates(&self, question: &Question, pixels: u32) -> Result<Vec<Replicate>, String> {
-        let most = self.tier.looks().iter().copied().max().unwrap_or(0);
         let mut replicates = Vec::new();
-        for job in self.jobs(question, most) {
+        for job in self.jobs(question, self.plan.tier.most()) {
             let path = job.picture(&self.folder);
             if path.is_file() {
                 let replicate = Replicate::read(&path, pixels, job.pose, job.seed)

@@ -1,6 +1,6 @@
 //! What a difference looks like: most first alarms are a driver's, and have a factor or a turn that betrays them.
 
-use crate::replicate::Replicate;
+use crate::replicate::{self, Replicate};
 use crate::truth::Picture;
 use std::f64::consts::PI;
 
@@ -17,18 +17,18 @@ const FACTORS: [(f64, &str); 9] = [
     (1.000_999, "1.000999: the luminance of a flat spectrum of 1"),
 ];
 
-/// How near to a factor a ratio must be, relative to it.
+/// How near to a factor a ratio must be, relative to it, and to what the factor changes.
 const NEAR: f64 = 0.003;
+const NEAR_CHANGE: f64 = 0.3;
 
 /// The pixel of the truth that is seen at a column and a row, with the last of either before them.
 type Turn = fn(i64, i64, i64) -> [i64; 2];
 
 /// What the mean picture looks like; `None` if like nothing that is known.
 pub(crate) fn of(truth: &Picture, replicates: &[Replicate]) -> Option<String> {
-    let count = replicates.len() as f64;
-    let mean = |index: usize| replicates.iter().map(|r| r.luminance[index]).sum::<f64>() / count;
-    let found: Vec<f64> = (0..truth.means.len()).map(mean).collect();
-    let ratio = found.iter().sum::<f64>() / truth.means.iter().sum::<f64>();
+    let found = replicate::mean(replicates, truth.pixels)?;
+    let ratio = found.mean() / truth.mean();
+    let found = found.means;
     if ratio == 0.0 {
         return Some("nothing at all is seen".to_owned());
     }
@@ -67,8 +67,9 @@ pub(crate) fn of(truth: &Picture, replicates: &[Replicate]) -> Option<String> {
         .map(|(_, name)| name.to_owned());
     let factor = FACTORS
         .iter()
-        .find(|(factor, _)| (ratio - factor).abs() <= NEAR * factor)
+        .find(|(factor, _)| {
+            (ratio - factor).abs() <= (NEAR * factor).min(NEAR_CHANGE * (factor - 1.0).abs())
+        })
         .map(|(_, what)| format!("a factor of {what}"));
-    // A factor close to 1 explains no turn.
     turned.or(factor)
 }

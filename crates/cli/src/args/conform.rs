@@ -1,7 +1,7 @@
 //! Arguments of `conform`.
 
 use crate::arg_values::whole;
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 use etalon_conform::mode::Mode;
 use etalon_conform::tier::Tier;
 use etalon_render::part::PartOfMany;
@@ -40,9 +40,9 @@ Examples:
     Judge {
         /// The folder.
         folder: PathBuf,
-        /// The program's name in full.
-        #[arg(long, default_value = "another program")]
-        program: String,
+        /// The program's name in full [default: as the folder has it].
+        #[arg(long)]
+        program: Option<String>,
     },
     /// Put the reports of several programs on one page.
     Page {
@@ -65,9 +65,10 @@ Examples:
 /// What is asked, and how much.
 #[derive(Debug, Args)]
 pub struct AskedArgs {
-    /// How much is rendered.
+    /// How much is rendered: `quick` asks the questions of few samples, with 16 pictures of each; `standard` all, with 32, and four
+    /// times as many of what is undecided.
     #[arg(long, value_name = "TIER", default_value = "standard")]
-    pub tier: TierName,
+    pub tier: Tier,
     /// Only questions whose names fit; `*` stands for anything.
     #[arg(long, value_name = "GLOB", default_value = "*")]
     pub only: String,
@@ -76,7 +77,7 @@ pub struct AskedArgs {
     pub pose_seed: u64,
     /// What the program leaves out: `measure` all that biases (this decides whether it is right), `shipped` nothing (this tells).
     #[arg(long, value_name = "MODE", default_value = "measure")]
-    pub mode: ModeName,
+    pub mode: Mode,
 }
 
 /// Arguments of `conform run`.
@@ -120,40 +121,4 @@ pub struct ConformExportArgs {
     /// What is asked.
     #[command(flatten)]
     pub asked: AskedArgs,
-}
-
-/// The tiers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum TierName {
-    /// The questions of few samples, 16 pictures of each.
-    Quick,
-    /// All, 32 pictures of each; four times as many of what is undecided.
-    Standard,
-}
-
-impl From<TierName> for Tier {
-    fn from(name: TierName) -> Self {
-        match name {
-            TierName::Quick => Self::Quick,
-            TierName::Standard => Self::Standard,
-        }
-    }
-}
-
-/// The modes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ModeName {
-    /// Without all that biases.
-    Measure,
-    /// With the program's defaults.
-    Shipped,
-}
-
-impl From<ModeName> for Mode {
-    fn from(name: ModeName) -> Self {
-        match name {
-            ModeName::Measure => Self::Measure,
-            ModeName::Shipped => Self::Shipped,
-        }
-    }
 }

@@ -7,8 +7,8 @@ use etalon_conform::driver::{Driver, Programs};
 use etalon_conform::page::{Run, page};
 use etalon_conform::plan::Plan;
 use etalon_conform::report::{self, Report};
-use etalon_conform::runner::Outcome;
-use etalon_conform::suite::{Running, Suite};
+use etalon_conform::runner::{Outcome, Runner};
+use etalon_conform::suite::Suite;
 use etalon_conform::{drivers, questions};
 use etalon_render::write_guard::{Destination, WriteGuard};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -27,7 +27,7 @@ pub fn run(args: &ConformArgs) -> ExitCode {
         }
         ConformCommand::Run(args) => ask(args),
         ConformCommand::Export(args) => export(args),
-        ConformCommand::Judge { folder, program } => judge(folder, program),
+        ConformCommand::Judge { folder, program } => judge(folder, program.as_deref()),
         ConformCommand::Page { reports, output } => together(reports, output),
         ConformCommand::Diff { old, new } => diff(old, new),
     };
@@ -83,7 +83,7 @@ fn unknown(name: &str) -> String {
 
 fn plan(asked: &AskedArgs) -> Result<Plan, String> {
     let fits = |name: &str| fits(&asked.only, name);
-    let plan = Plan::new(asked.pose_seed, asked.tier.into(), asked.mode.into(), fits);
+    let plan = Plan::new(asked.pose_seed, asked.tier, asked.mode, fits);
     match plan.questions.is_empty() {
         true => Err(format!(
             "no question of the tier fits `{}`: `etalon conform list` names all",
@@ -136,30 +136,26 @@ fn ask(args: &ConformRunArgs) -> Result<ExitCode, String> {
     if let Err(error) = interrupt::listen() {
         note(format!("a signal will end the process: {error}"));
     }
-    let stop = interrupt::flag();
     let workers = args
         .workers
         .map_or_else(processors, |workers| workers as usize);
-    let report = suite.run(
-        &driver,
-        &Running {
-            workers,
-            limit: Duration::from_secs(args.limit.into()),
-            begin: &|look, count| {
-                bar.set_length(count as u64);
-                bar.set_position(0);
-                bar.set_prefix(format!("look {}", look + 1));
-            },
-            done: &|job, outcome| {
-                bar.inc(1);
-                bar.set_message(job.question.clone());
-                if let Outcome::Broken(how) = outcome {
-                    bar.suspend(|| note(format!("{}, seed {}: {how}", job.question, job.seed)));
-                }
-            },
-            stop,
+    let runner = Runner {
+        workers,
+        limit: Duration::from_secs(args.limit.into()),
+        done: &|job, outcome| {
+            bar.inc(1);
+            bar.set_message(job.question.clone());
+            if let Outcome::Broken(how) = outcome {
+                bar.suspend(|| note(format!("{}, seed {}: {how}", job.question, job.seed)));
+            }
         },
-    );
+        stop: interrupt::flag(),
+    };
+    let report = suite.run(&driver, &runner, |look, count| {
+        bar.set_length(count as u64);
+        bar.set_position(0);
+        bar.set_prefix(format!("look {}", look + 1));
+    });
     bar.finish_and_clear();
     if interrupt::asked() {
         note("stopped; the same command goes on from here");
@@ -201,7 +197,7 @@ fn export(args: &ConformExportArgs) -> Result<ExitCode, String> {
         let out = job.picture(Path::new(""));
         let line = serde_json::json!({
             "scene": format!("{scene}.json"), "xml": format!("{scene}.xml"),
-            "samples": job.samples, "seed": job.seed, "mode": suite.plan.mode,
+            "samples": job.samples, "seed": job.seed, "mode": suite.plan.mode.name(),
             "out": out.display().to_string(),
         });
         let _ = writeln!(lines, "{line}");
@@ -218,9 +214,12 @@ fn export(args: &ConformExportArgs) -> Result<ExitCode, String> {
     Ok(answer(&text, ExitCode::SUCCESS))
 }
 
-fn judge(folder: &Path, program: &str) -> Result<ExitCode, String> {
+fn judge(folder: &Path, program: Option<&str>) -> Result<ExitCode, String> {
     let suite = Suite::open(folder)?;
-    let report = suite.judge(program, &Default::default());
+    let mut report = suite.judge();
+    if let Some(program) = program {
+        report.plan.title = program.to_owned();
+    }
     keep(&suite, &report, &places(folder, None)?)?;
     let code = ExitCode::from(report.conclusion().exit_code());
     Ok(answer(&report.table(), code))

@@ -1,9 +1,11 @@
 //! All that is known of one question.
 
-use super::{Asked, Program, anchor, dots, mark, matrix, number, pictures, reason};
+use super::{Asked, Program, anchor, dots, mark, matrix, number, pictures};
 use crate::drivers;
-use crate::judge::{Finding, Rules, TILES, Verdict};
+use crate::judge::{Finding, TILE_BOUND, TILES, Verdict};
+use crate::mode::Mode;
 use crate::plan::Plan;
+use crate::tier::Tier;
 use etalon_render::report::signed;
 use maud::{Markup, html};
 
@@ -37,7 +39,7 @@ pub(super) fn detail(asked: &Asked, programs: &[Program<'_>]) -> Markup {
                 @if let Some(finding) = program.finding(&asked.name) {
                     section class="answer" aria-label=(program.name) {
                         h3 { (program.name) ": " (mark(finding.verdict.word())) }
-                        @if let Some(reason) = reason(&finding.verdict) { p { (reason.trim()) } }
+                        @if let Some(reason) = finding.verdict.reason() { p { (reason.trim()) } }
                         (numbers(finding))
                         @if let (Some(truth), Some(mean)) = (&truth, program.run.means.get(&asked.name)) {
                             (pictures::pictures(truth, mean, finding.replicates.len(), &program.name))
@@ -54,7 +56,7 @@ pub(super) fn detail(asked: &Asked, programs: &[Program<'_>]) -> Markup {
 fn numbers(finding: &Finding) -> Markup {
     let tile_bound = format!(
         "a tile may be off by {} % of its mean and δ of the picture's",
-        100.0 * Rules::new(0, 0).tile_bound
+        100.0 * TILE_BOUND
     );
     html! {
         dl class="facts" {
@@ -85,7 +87,7 @@ fn again(plan: &Plan, question: &str) -> Markup {
     let built_in = drivers::ALL
         .iter()
         .any(|driver| driver.name == plan.program);
-    let elsewhere = plan.program == "elsewhere";
+    let elsewhere = plan.program == Plan::ELSEWHERE;
     html! {
         p class="command" { "Again: " code { (command(plan, question, built_in)) } " "
             button type="button" class="copy" title="Copy the command" { "Copy" } }
@@ -97,7 +99,7 @@ fn again(plan: &Plan, question: &str) -> Markup {
 fn command(plan: &Plan, question: &str, built_in: bool) -> String {
     let only = quoted(question);
     let mut command = match (&plan.program[..], built_in) {
-        ("elsewhere", _) => format!("etalon conform export --only {only}"),
+        (Plan::ELSEWHERE, _) => format!("etalon conform export --only {only}"),
         (name, true) => format!("etalon conform run --driver {name} --only {only}"),
         (name, false) => format!(
             "etalon conform run --driver {} --only {only}",
@@ -106,8 +108,8 @@ fn command(plan: &Plan, question: &str, built_in: bool) -> String {
     };
     let seed = plan.suite_seed.to_string();
     for (option, value, usual) in [
-        ("--tier", &plan.tier, "standard"),
-        ("--mode", &plan.mode, "measure"),
+        ("--tier", plan.tier.name(), Tier::default().name()),
+        ("--mode", plan.mode.name(), Mode::default().name()),
         ("--pose-seed", &seed, "1"),
     ] {
         if value != usual {
@@ -115,10 +117,9 @@ fn command(plan: &Plan, question: &str, built_in: bool) -> String {
         }
     }
     // The folder of the whole run holds another plan, and would be refused.
-    let option = if plan.program == "elsewhere" {
-        "--to"
-    } else {
-        "-o"
+    let option = match &plan.program[..] {
+        Plan::ELSEWHERE => "--to",
+        _ => "-o",
     };
     command + &format!(" {option} {}", quoted(&format!("again-{question}")))
 }
@@ -135,8 +136,6 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mode::Mode;
-    use crate::tier::Tier;
 
     #[test]
     fn commands_repeat_what_was_asked() {

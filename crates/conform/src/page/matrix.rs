@@ -1,6 +1,6 @@
 //! Questions × programs: the verdicts with their values.
 
-use super::{Asked, Program, VERDICTS, anchor, class, count, mark, rank, reason};
+use super::{Asked, Program, VERDICTS, anchor, class, mark, rank};
 use crate::judge::Finding;
 use etalon_render::report::{interval, signed};
 use maud::{Markup, html};
@@ -13,7 +13,7 @@ pub(super) fn filters(programs: &[Program<'_>], asked: &[Asked]) -> Markup {
             fieldset {
                 legend { "Verdict" }
                 @for (word, sign) in VERDICTS {
-                    @let count: usize = programs.iter().map(|program| count(program.run.report, word)).sum();
+                    @let count: usize = programs.iter().map(|program| program.run.report.count(word)).sum();
                     @if count > 0 {
                         label { input type="checkbox" name="verdict" value=(class(word)) checked="checked";
                             " " (sign) " " (word) " (" (count) ")" }
@@ -72,7 +72,7 @@ fn cell(finding: Option<&Finding>, bound: f64) -> Markup {
                 " " (interval::bar(bias, ends, [-bound, bound], &class(word)))
             }
             @if let Some(value) = value(finding) { span class="under" { (value) } }
-            @if let Some(reason) = reason(&finding.verdict) { span class="under" { (reason.trim()) } }
+            @if let Some(reason) = finding.verdict.reason() { span class="under" { (reason.trim()) } }
             @if let Some(suspicion) = &finding.suspicion { span class="under" { "looks like " (suspicion) } }
         }
     }

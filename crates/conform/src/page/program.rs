@@ -1,6 +1,7 @@
 //! What each program came to, what it was asked, and what its driver says of units.
 
-use super::{Program, VERDICTS, class, count};
+use super::{Program, VERDICTS, class};
+use crate::mode::Mode;
 use crate::report::Conclusion;
 use maud::{Markup, html};
 use serde_json::Value;
@@ -29,27 +30,27 @@ fn one(program: &Program<'_>, among_others: bool) -> Markup {
             ul class="verdict" {
                 li class={ "whole " (class_of_whole) } { b { (text) } span { (meaning) } }
                 @for (word, sign) in VERDICTS {
-                    @let count = count(report, word);
+                    @let count = report.count(word);
                     @if count > 0 || word == "agrees" {
                         li class=(class(word)) { b { (count) } span { (sign) " " (word) } }
                     }
                 }
             }
             dl class="facts" {
-                dt { "Program" } dd { (report.program) }
+                dt { "Program" } dd { (plan.title) }
                 dt { "Version" } dd { @if plan.program_version.is_empty() { "not told" } @else { (plan.program_version) } }
-                dt { "Asked" } dd { (report.rows.len()) " questions, tier " code { (plan.tier) }
-                    ", mode " code { (plan.mode) } " (" (mode(&plan.mode)) ")" }
+                dt { "Asked" } dd { (report.rows.len()) " questions, tier " code { (plan.tier.name()) }
+                    ", mode " code { (plan.mode.name()) } " (" (mode(plan.mode)) ")" }
                 dt { "Bound" } dd { "δ = " (100.0 * report.bound) " %" }
                 dt { "Seed of poses" } dd { (plan.suite_seed)
                     @if plan.pose_each { ", every picture in a pose of its own" } }
                 dt { "Page made by" } dd { "Etalon " (etalon_render::VERSION) }
             }
-            @if !report.conventions.is_empty() {
+            @if !plan.conventions.is_empty() {
                 details class="about" {
                     summary { "What the driver says of units and factors" }
                     dl class="facts" {
-                        @for (name, value) in &report.conventions {
+                        @for (name, value) in &plan.conventions {
                             dt { (spoken(name)) } dd { (told(value)) }
                         }
                     }
@@ -59,10 +60,10 @@ fn one(program: &Program<'_>, among_others: bool) -> Markup {
     }
 }
 
-fn mode(name: &str) -> &'static str {
-    match name {
-        "measure" => "without all that biases: this decides whether it is right",
-        _ => "as a user gets it: this tells, and decides nothing",
+fn mode(mode: Mode) -> &'static str {
+    match mode {
+        Mode::Measure => "without all that biases: this decides whether it is right",
+        Mode::Shipped => "as a user gets it: this tells, and decides nothing",
     }
 }
 

@@ -18,27 +18,27 @@ pub(super) const RECTANGLE: Question = Question {
     source: "Lambert, Photometria, 1760",
     freedom: Freedom::Any,
     samples: 256,
-    ask: || under_rectangle("rectangle-light", 0.0),
+    ask: || under_rectangle(0.0),
 };
 
 pub(super) const TILTED: Question = Question {
     name: "rectangle-light-tilted",
     title: "A floor under a rectangle that is tilted by 30 degrees",
-    ask: || under_rectangle("rectangle-light-tilted", FRAC_PI_6),
+    ask: || under_rectangle(FRAC_PI_6),
     ..RECTANGLE
 };
 
 pub(super) const TRIANGLE: Question = Question {
     name: "triangle-light",
     title: "A floor under a slanted triangle",
-    ask: || under_mesh("triangle-light", TRIANGLE_CORNERS, &[[0, 1, 2]]),
+    ask: || under_mesh(TRIANGLE_CORNERS, &[[0, 1, 2]]),
     ..RECTANGLE
 };
 
 pub(super) const OCTAHEDRON: Question = Question {
     name: "octahedron-light",
     title: "A floor under a glowing octahedron of triangles",
-    ask: || under_mesh("octahedron-light", &octahedron(), &OCTAHEDRON_FACES),
+    ask: || under_mesh(&octahedron(), &OCTAHEDRON_FACES),
     ..RECTANGLE
 };
 
@@ -76,7 +76,7 @@ fn octahedron() -> [Triple; 6] {
     ]
 }
 
-fn under_rectangle(name: &str, tilt: f64) -> (Scene, Picture) {
+fn under_rectangle(tilt: f64) -> (Scene, Picture) {
     let (a, b, h) = (0.5, 0.3, 0.7);
     let light = Shape::Quad {
         center_m: [0.0, 0.0, h],
@@ -84,7 +84,7 @@ fn under_rectangle(name: &str, tilt: f64) -> (Scene, Picture) {
         half_v_m: [0.0, -b, 0.0],
     };
     let at = [0.2, 0.1];
-    let scene = scene(name, down([at[0], at[1], 0.0], 0.4))
+    let scene = scene(down([at[0], at[1], 0.0], 0.4))
         .with(floor(0.0), GREY)
         .glowing(light, BLACK, 1.0);
     let truth = Picture::of(PIXELS, |u, v| {
@@ -93,7 +93,7 @@ fn under_rectangle(name: &str, tilt: f64) -> (Scene, Picture) {
     (scene, truth)
 }
 
-fn under_mesh(name: &str, corners: &[Triple], triangles: &[[u32; 3]]) -> (Scene, Picture) {
+fn under_mesh(corners: &[Triple], triangles: &[[u32; 3]]) -> (Scene, Picture) {
     let light = Shape::Mesh {
         positions_m: corners.to_vec(),
         triangles: triangles.to_vec(),
@@ -104,7 +104,7 @@ fn under_mesh(name: &str, corners: &[Triple], triangles: &[[u32; 3]]) -> (Scene,
         .map(|triangle| triangle.map(corner).to_vec())
         .collect();
     let at = [0.3, -0.1];
-    let scene = scene(name, down([at[0], at[1], 0.0], 0.4))
+    let scene = scene(down([at[0], at[1], 0.0], 0.4))
         .with(floor(0.0), GREY)
         .glowing(light, BLACK, 2.0);
     let truth = Picture::of(PIXELS, |u, v| {
@@ -116,7 +116,7 @@ fn under_mesh(name: &str, corners: &[Triple], triangles: &[[u32; 3]]) -> (Scene,
 /// The weaker one is aside and higher, and no smaller to the eye.
 fn two() -> (Scene, Picture) {
     let (strong, weak) = (400.0, 0.4);
-    let scene = scene("two-lights", down([0.3, 0.0, 0.0], 0.2))
+    let scene = scene(down([0.3, 0.0, 0.0], 0.2))
         .with(floor(0.0), GREY)
         .glowing(sphere([0.0, 0.0, 1.0], 0.05), BLACK, strong)
         .glowing(sphere([0.5, 0.0, 1.5], 0.075), BLACK, weak);

@@ -27,14 +27,14 @@ pub(super) const PINHOLE: Question = Question {
     name: "perspective",
     title: "A rectangle off the axis of a pinhole of 60 degrees",
     samples: 256,
-    ask: || pinhole("perspective", 60.0, [0.3, 0.2], [0.5, 0.5]),
+    ask: || pinhole(60.0, [0.3, 0.2], [0.5, 0.5]),
     ..PARALLEL
 };
 
 pub(super) const WIDE: Question = Question {
     name: "perspective-wide",
     title: "A rectangle off the axis of a pinhole of 100 degrees",
-    ask: || pinhole("perspective-wide", 100.0, [0.9, -0.7], [1.2, 0.9]),
+    ask: || pinhole(100.0, [0.9, -0.7], [1.2, 0.9]),
     ..PINHOLE
 };
 
@@ -84,16 +84,16 @@ fn ends(middle: f64, half: f64, half_width: f64) -> [f64; 2] {
 fn parallel() -> (Scene, Picture) {
     let ([x, z], [half_x, half_z]) = ([0.31, 0.17], [0.43, 0.29]);
     let form = upright([x, z], [half_x, half_z]);
-    let scene = scene("registration", along_y(2.0)).glowing(form, BLACK, 1.0);
+    let scene = scene(along_y(2.0)).glowing(form, BLACK, 1.0);
     let truth = rectangle(PIXELS, ends(x, half_x, 1.0), ends(z, half_z, 1.0));
     (scene, truth)
 }
 
-fn pinhole(name: &str, degrees: f64, [x, z]: [f64; 2], half: [f64; 2]) -> (Scene, Picture) {
+fn pinhole(degrees: f64, [x, z]: [f64; 2], half: [f64; 2]) -> (Scene, Picture) {
     let camera = toward_it(Projection::Pinhole {
         field_of_view_degrees: degrees,
     });
-    let scene = scene(name, camera).glowing(upright([x, z], half), BLACK, 1.0);
+    let scene = scene(camera).glowing(upright([x, z], half), BLACK, 1.0);
     let width = 2.0 * tan(0.5 * degrees.to_radians());
     let truth = rectangle(PIXELS, ends(x, half[0], width), ends(z, half[1], width));
     (scene, truth)
@@ -114,7 +114,7 @@ fn lens(degrees: f64) -> Camera {
 /// 12 mm in the corners of the picture.
 fn defocus() -> (Scene, Picture) {
     let (half, radiance) = (0.025, 1.0);
-    let scene = scene("defocus", lens(0.5)).glowing(upright([0.0; 2], [half; 2]), BLACK, radiance);
+    let scene = scene(lens(0.5)).glowing(upright([0.0; 2], [half; 2]), BLACK, radiance);
     let circle = confusion(LENS[0], 2.0, LENS[1]);
     let share = 4.0 * half * half / (PI * circle * circle);
     (scene, Picture::even(PIXELS, share * radiance))
@@ -124,7 +124,7 @@ fn defocus() -> (Scene, Picture) {
 fn defocus_edge() -> (Scene, Picture) {
     let (edge, degrees) = (0.013, 5.0);
     let form = upright([edge + 1.0, 0.0], [1.0; 2]);
-    let scene = scene("defocus-edge", lens(degrees)).glowing(form, BLACK, 1.0);
+    let scene = scene(lens(degrees)).glowing(form, BLACK, 1.0);
     let circle = confusion(LENS[0], 2.0, LENS[1]);
     let half_width = 2.0 * tan(0.5 * f64::to_radians(degrees));
     let truth = Picture::of_parts(PIXELS, 16, |u, _| {

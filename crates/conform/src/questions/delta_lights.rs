@@ -24,14 +24,14 @@ pub(super) const POINT: Question = Question {
 pub(super) const SPOT: Question = Question {
     name: "spot-light",
     title: "A floor on the axis of a spot light",
-    ask: || spot("spot-light", [0.1, 0.0, 0.0], [20.0, 30.0]),
+    ask: || spot([0.1, 0.0, 0.0], [20.0, 30.0]),
     ..POINT
 };
 
 pub(super) const SPOT_ASIDE: Question = Question {
     name: "spot-light-off-axis",
     title: "A floor within the even cone of a spot light, 40 degrees off its axis",
-    ask: || spot("spot-light-off-axis", [-0.676, 0.0, 0.0], [60.0, 75.0]),
+    ask: || spot([-0.676, 0.0, 0.0], [60.0, 75.0]),
     ..POINT
 };
 
@@ -47,7 +47,7 @@ pub(super) const SUN: Question = Question {
 const LIGHT: Triple = [0.0, 0.0, 1.0];
 
 fn point() -> (Scene, Picture) {
-    let scene = scene("point-light", down([0.7, -0.4, 0.0], 0.4))
+    let scene = scene(down([0.7, -0.4, 0.0], 0.4))
         .with(floor(0.0), GREY)
         .lit(Light::Point {
             position_m: LIGHT,
@@ -60,8 +60,8 @@ fn point() -> (Scene, Picture) {
 }
 
 /// The window lies within the first of the two angles, where the light is that of a point.
-fn spot(name: &str, target: Triple, [even, dark]: [f64; 2]) -> (Scene, Picture) {
-    let scene = scene(name, down([0.1, 0.0, 0.0], 0.2))
+fn spot(target: Triple, [even, dark]: [f64; 2]) -> (Scene, Picture) {
+    let scene = scene(down([0.1, 0.0, 0.0], 0.2))
         .with(floor(0.0), GREY)
         .lit(Light::Spot {
             position_m: LIGHT,
@@ -79,7 +79,7 @@ fn spot(name: &str, target: Triple, [even, dark]: [f64; 2]) -> (Scene, Picture) 
 fn sun() -> (Scene, Picture) {
     let angle = 40f64.to_radians();
     let direction = [sin(angle), 0.0, -cos(angle)];
-    let scene = scene("sun", down([0.0; 3], 0.2))
+    let scene = scene(down([0.0; 3], 0.2))
         .with(floor(0.0), GREY)
         .lit(Light::Sun {
             direction,

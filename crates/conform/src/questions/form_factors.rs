@@ -33,7 +33,7 @@ fn opposite() -> (Scene, Picture) {
         half_u_m: [1.0, 0.0, 0.0],
         half_v_m: [0.0, -1.0, 0.0],
     };
-    let scene = scene("form-factor-parallel", down([0.0; 3], 2.0))
+    let scene = scene(down([0.0; 3], 2.0))
         .with(floor(0.0), GREY)
         .glowing(light, BLACK, 1.0);
     let ends = [-1.0, 1.0];
@@ -48,7 +48,7 @@ fn at_the_foot() -> (Scene, Picture) {
         half_u_m: [0.0, 1.0, 0.0],
         half_v_m: [0.0, 0.0, 1.0],
     };
-    let scene = scene("form-factor-perpendicular", down([0.0; 3], 2.0))
+    let scene = scene(down([0.0; 3], 2.0))
         .with(floor(0.0), GREY)
         .glowing(light, BLACK, 1.0);
     let truth = by_pixel(|[left, right], y| {

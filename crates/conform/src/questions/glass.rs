@@ -17,13 +17,13 @@ pub(super) const UPRIGHT: Question = Question {
     source: "Stokes, On the intensity of the light reflected from or transmitted through a pile of plates, 1862",
     freedom: Freedom::Any,
     samples: 64,
-    ask: || panes("pane-0", 0.0, &[0.0]),
+    ask: || panes(0.0, &[0.0]),
 };
 
 pub(super) const SLANTED: Question = Question {
     name: "pane-45",
     title: "A wall through a pane of glass at 45 degrees",
-    ask: || panes("pane-45", 45.0, &[0.0]),
+    ask: || panes(45.0, &[0.0]),
     ..UPRIGHT
 };
 
@@ -31,7 +31,7 @@ pub(super) const GRAZING: Question = Question {
     name: "pane-70",
     title: "A wall through a pane of glass at 70 degrees",
     samples: 256,
-    ask: || panes("pane-70", 70.0, &[0.0]),
+    ask: || panes(70.0, &[0.0]),
     ..UPRIGHT
 };
 
@@ -40,7 +40,7 @@ pub(super) const PILE: Question = Question {
     title: "A wall through two panes of glass at 30 degrees",
     formula: "(1 − R)/(1 + 3R) L, R = ½ (R_s + R_p)",
     samples: 128,
-    ask: || panes("pile-of-panes", 30.0, &[-0.1, 0.1]),
+    ask: || panes(30.0, &[-0.1, 0.1]),
     ..UPRIGHT
 };
 
@@ -57,11 +57,11 @@ const GLASS: Material = Material::Glass { n: 1.5 };
 
 /// Panes of 3 m × 3 m × 5 cm with the normal (0, −cos, sin) of an angle, shifted along it by each of the distances. What they
 /// reflect passes the wall by, which is only 2 m wide.
-fn panes(name: &str, degrees: f64, distances: &[f64]) -> (Scene, Picture) {
+fn panes(degrees: f64, distances: &[f64]) -> (Scene, Picture) {
     let angle = degrees.to_radians();
     let (sine, cosine) = (sin(angle), cos(angle));
     let behind = facing([0.0, 4.0, 0.0], [0.0, -1.0, 0.0], 1.0);
-    let mut scene = scene(name, along_y(0.2)).glowing(behind, BLACK, 1.0);
+    let mut scene = scene(along_y(0.2)).glowing(behind, BLACK, 1.0);
     for distance in distances {
         let pane = Shape::Box {
             center_m: [0.0, -distance * cosine, distance * sine],
@@ -79,7 +79,7 @@ fn panes(name: &str, degrees: f64, distances: &[f64]) -> (Scene, Picture) {
 }
 
 fn ball() -> (Scene, Picture) {
-    let scene = scene("glass-ball", along_y(1.8))
+    let scene = scene(along_y(1.8))
         .with(sphere([0.0; 3], 1.0), GLASS)
         .under(1.0);
     (scene, Picture::even(PIXELS, 1.0))

@@ -14,13 +14,13 @@ pub(super) const ABSORBER: Question = Question {
     source: "Bouguer, Essai d'optique, 1729",
     freedom: Freedom::Any,
     samples: 1024,
-    ask: || before_wall("absorber", 0.0),
+    ask: || before_wall(0.0),
 };
 
 pub(super) const SLANTED: Question = Question {
     name: "absorber-slanted",
     title: "A wall through a slab that absorbs, seen at 40 degrees",
-    ask: || before_wall("absorber-slanted", 40.0),
+    ask: || before_wall(40.0),
     ..ABSORBER
 };
 
@@ -50,7 +50,7 @@ fn slab() -> Shape {
     }
 }
 
-fn before_wall(name: &str, degrees: f64) -> (Scene, Picture) {
+fn before_wall(degrees: f64) -> (Scene, Picture) {
     let angle = degrees.to_radians();
     let (sine, cosine) = (sin(angle), cos(angle));
     let camera = Camera {
@@ -64,7 +64,7 @@ fn before_wall(name: &str, degrees: f64) -> (Scene, Picture) {
         absorption_per_m: 1.0,
         scattering_per_m: 0.0,
     };
-    let scene = scene(name, camera)
+    let scene = scene(camera)
         .filled(slab(), medium)
         .glowing(behind, BLACK, 1.0);
     let truth = absorption::slab(1.0, 1.0, cosine);
@@ -77,7 +77,7 @@ fn ball() -> (Scene, Picture) {
         absorption_per_m: 0.5,
         scattering_per_m: 0.0,
     };
-    let scene = scene("absorbing-ball", along_y(1.2))
+    let scene = scene(along_y(1.2))
         .filled(sphere([0.0; 3], 1.0), medium)
         .under(1.0);
     let truth = Picture::of(PIXELS, |u, v| {
@@ -91,8 +91,6 @@ fn scatterer() -> (Scene, Picture) {
         absorption_per_m: 0.0,
         scattering_per_m: 3.0,
     };
-    let scene = scene("scattering-box", along_y(1.0))
-        .filled(slab(), medium)
-        .under(1.0);
+    let scene = scene(along_y(1.0)).filled(slab(), medium).under(1.0);
     (scene, Picture::even(PIXELS, 1.0))
 }

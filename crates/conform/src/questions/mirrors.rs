@@ -17,7 +17,7 @@ pub(super) const MIRROR: Question = Question {
     source: "the definition of reflectance",
     freedom: Freedom::Any,
     samples: 16,
-    ask: || wall_in("mirror", Material::Mirror { reflectance: 0.8 }, 45.0, 0.8),
+    ask: || wall_in(Material::Mirror { reflectance: 0.8 }, 45.0, 0.8),
 };
 
 pub(super) const CONDUCTOR: Question = Question {
@@ -25,14 +25,14 @@ pub(super) const CONDUCTOR: Question = Question {
     title: "A wall in a metal at 45 degrees",
     formula: "½ (R_s + R_p) L of the index 0.2 + 3i",
     source: "Born and Wolf, Principles of Optics, 1959, section 13.2",
-    ask: || metal("conductor-45", 45.0),
+    ask: || metal(45.0),
     ..MIRROR
 };
 
 pub(super) const CONDUCTOR_GRAZING: Question = Question {
     name: "conductor-75",
     title: "A wall in a metal at 75 degrees",
-    ask: || metal("conductor-75", 75.0),
+    ask: || metal(75.0),
     ..CONDUCTOR
 };
 
@@ -55,18 +55,18 @@ pub(super) const ROOM: Question = Question {
     ..MIRROR
 };
 
-fn metal(name: &str, degrees: f64) -> (Scene, Picture) {
+fn metal(degrees: f64) -> (Scene, Picture) {
     let (n, k) = (0.2, 3.0);
     let truth = conductor(cos(degrees.to_radians()), n, k);
-    wall_in(name, Material::Conductor { n, k }, degrees, truth)
+    wall_in(Material::Conductor { n, k }, degrees, truth)
 }
 
 /// The mirror's normal is (0, −cos, sin); its light comes from a wall of 2 m that no ray meets otherwise.
-fn wall_in(name: &str, material: Material, degrees: f64, truth: f64) -> (Scene, Picture) {
+fn wall_in(material: Material, degrees: f64, truth: f64) -> (Scene, Picture) {
     let angle = degrees.to_radians();
     let (sine, cosine) = (sin(angle), cos(angle));
     let (y, z) = (1.0 - 2.0 * cosine * cosine, 2.0 * sine * cosine);
-    let scene = scene(name, along_y(0.2))
+    let scene = scene(along_y(0.2))
         .with(facing([0.0; 3], [0.0, -cosine, sine], 1.0), material)
         .glowing(
             facing([0.0, 4.0 * y, 4.0 * z], [0.0, -y, -z], 1.0),
@@ -97,7 +97,7 @@ fn corridor() -> (Scene, Picture) {
         up: [0.0, 0.0, 1.0],
         projection: Projection::Orthographic { width_m: 0.4 },
     };
-    let scene = scene("mirror-corridor", camera)
+    let scene = scene(camera)
         .with(side(0.0, 2.4), material)
         .with(side(1.0, -2.4), material)
         .glowing(end, BLACK, 1.0);
@@ -125,7 +125,7 @@ fn room() -> (Scene, Picture) {
             field_of_view_degrees: 40.0,
         },
     };
-    let mut scene = scene("mirror-room", camera);
+    let mut scene = scene(camera);
     for (axis, side, square) in cube() {
         let (reflectance, radiance) = match (axis, side > 0.0) {
             (2, true) => (ceiling, 1.0),

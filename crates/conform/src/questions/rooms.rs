@@ -19,13 +19,13 @@ pub(super) const FURNACE: Question = Question {
     source: "Kirchhoff's law, 1860",
     freedom: Freedom::Any,
     samples: 256,
-    ask: || under_sky("furnace", GREY, 0.5),
+    ask: || under_sky(GREY, 0.5),
 };
 
 pub(super) const WHITE_FURNACE: Question = Question {
     name: "white-furnace",
     title: "A white sphere under an even sky cannot be seen",
-    ask: || under_sky("white-furnace", Material::Diffuse { reflectance: 1.0 }, 1.0),
+    ask: || under_sky(Material::Diffuse { reflectance: 1.0 }, 1.0),
     ..FURNACE
 };
 
@@ -33,14 +33,14 @@ pub(super) const DARK_ROOM: Question = Question {
     name: "glowing-room-0.2",
     title: "Inside a glowing sphere of reflectance 0.2",
     formula: "L/(1 − ρ)",
-    ask: || round_room("glowing-room-0.2", 0.2),
+    ask: || round_room(0.2),
     ..FURNACE
 };
 
 pub(super) const GREY_ROOM: Question = Question {
     name: "glowing-room-0.5",
     title: "Inside a glowing sphere of reflectance 0.5",
-    ask: || round_room("glowing-room-0.5", 0.5),
+    ask: || round_room(0.5),
     ..DARK_ROOM
 };
 
@@ -48,7 +48,7 @@ pub(super) const ROOM_SIZES: Question = Question {
     name: "glowing-room-sizes",
     title: "Inside glowing spheres of many sizes, of reflectance 0.5",
     freedom: Freedom::EachAnew,
-    ask: || round_room("glowing-room-sizes", 0.5),
+    ask: || round_room(0.5),
     ..DARK_ROOM
 };
 
@@ -56,7 +56,7 @@ pub(super) const BRIGHT_ROOM: Question = Question {
     name: "glowing-room-0.8",
     title: "Inside a glowing sphere of reflectance 0.8",
     samples: 512,
-    ask: || round_room("glowing-room-0.8", 0.8),
+    ask: || round_room(0.8),
     ..DARK_ROOM
 };
 
@@ -86,8 +86,8 @@ pub(super) const BALL_IN_SPHERE: Question = Question {
 };
 
 /// The picture shows the sphere alone.
-fn under_sky(name: &str, material: Material, truth: f64) -> (Scene, Picture) {
-    let scene = scene(name, along_y(1.0))
+fn under_sky(material: Material, truth: f64) -> (Scene, Picture) {
+    let scene = scene(along_y(1.0))
         .with(sphere([0.0; 3], 1.0), material)
         .under(1.0);
     (scene, Picture::even(PIXELS, truth))
@@ -105,8 +105,8 @@ fn inside(origin: Triple) -> Camera {
     }
 }
 
-fn round_room(name: &str, reflectance: f64) -> (Scene, Picture) {
-    let scene = scene(name, inside([0.1, -0.2, 0.05])).glowing(
+fn round_room(reflectance: f64) -> (Scene, Picture) {
+    let scene = scene(inside([0.1, -0.2, 0.05])).glowing(
         inward_sphere(1.0),
         Material::Diffuse { reflectance },
         1.0,
@@ -115,7 +115,7 @@ fn round_room(name: &str, reflectance: f64) -> (Scene, Picture) {
 }
 
 fn cube_room() -> (Scene, Picture) {
-    let mut scene = scene("glowing-cube", inside([0.1, -0.2, 0.05]));
+    let mut scene = scene(inside([0.1, -0.2, 0.05]));
     for (_, _, square) in cube() {
         scene = scene.glowing(square, GREY, 1.0);
     }
@@ -125,7 +125,7 @@ fn cube_room() -> (Scene, Picture) {
 fn point_in_sphere() -> (Scene, Picture) {
     let (reflectance, intensity) = (0.8, 2.0);
     let (camera, lamp) = ([0.0, -0.5, 0.0], [0.3, 0.2, 0.4]);
-    let scene = scene("integrating-sphere-point", inside(camera))
+    let scene = scene(inside(camera))
         .with(inward_sphere(1.0), Material::Diffuse { reflectance })
         .lit(Light::Point {
             position_m: lamp,
@@ -142,7 +142,7 @@ fn point_in_sphere() -> (Scene, Picture) {
 
 fn ball_in_sphere() -> (Scene, Picture) {
     let (reflectance, ratio, radiance) = (0.9, 0.2, 25.0);
-    let scene = scene("integrating-sphere-ball", inside([0.0, 0.5, 0.0]))
+    let scene = scene(inside([0.0, 0.5, 0.0]))
         .with(inward_sphere(1.0), Material::Diffuse { reflectance })
         .glowing(sphere([0.0; 3], ratio), BLACK, radiance);
     let truth = radiance * about_ball(reflectance, ratio);

@@ -55,7 +55,7 @@ fn block() -> (Scene, Picture) {
         let bright = within(BRIGHT_ROWS, i / COLUMNS) && within(BRIGHT_COLUMNS, i % COLUMNS);
         if bright { radiance } else { 0.0 }
     };
-    let mut scene = scene("sky-block", camera).with(tilted, GREY);
+    let mut scene = scene(camera).with(tilted, GREY);
     scene.sky = Some(Sky::Map {
         zenith: [0.0, 0.0, 1.0],
         meridian: [1.0, 0.0, 0.0],
@@ -76,7 +76,7 @@ fn beside_wall() -> (Scene, Picture) {
         half_u_m: [0.0, 1.0, 0.0],
         half_v_m: [0.0, 0.0, 1.0],
     };
-    let scene = scene("sky-beside-wall", down([0.0; 3], 2.0))
+    let scene = scene(down([0.0; 3], 2.0))
         .with(floor(0.0), GREY)
         .with(wall, BLACK)
         .under(1.0);

@@ -21,14 +21,14 @@ pub(super) const LARGE: Question = Question {
     source: SOURCE,
     freedom: Freedom::Any,
     samples: 256,
-    ask: || under("sphere-light-large", 0.5, 1.0),
+    ask: || under(0.5, 1.0),
 };
 
 pub(super) const SMALL: Question = Question {
     name: "sphere-light-small",
     title: "A floor under a sphere light of a twentieth of its distance",
     samples: 64,
-    ask: || under("sphere-light-small", 0.05, 1.0),
+    ask: || under(0.05, 1.0),
     ..LARGE
 };
 
@@ -37,14 +37,14 @@ pub(super) const TINY: Question = Question {
     title: "A floor under a sphere light of a ten thousandth of its distance",
     freedom: Freedom::AboutOrigin,
     samples: 64,
-    ask: || under("sphere-light-1e-4", 1e-4, 1.0),
+    ask: || under(1e-4, 1.0),
     ..LARGE
 };
 
 pub(super) const TINIEST: Question = Question {
     name: "sphere-light-1e-6",
     title: "A floor under a sphere light of a millionth of its distance",
-    ask: || under("sphere-light-1e-6", 1e-6, 1.0),
+    ask: || under(1e-6, 1.0),
     ..TINY
 };
 
@@ -69,9 +69,11 @@ pub(super) const CUT: Question = Question {
 fn far() -> (Scene, Picture) {
     let (r, h) = (1.0, 1e4);
     let radiance = h * h / (r * r);
-    let scene = scene("sphere-light-far", down([0.0; 3], 0.2))
-        .with(floor(0.0), GREY)
-        .glowing(sphere([0.3 * h, 0.0, h], r), BLACK, radiance);
+    let scene = scene(down([0.0; 3], 0.2)).with(floor(0.0), GREY).glowing(
+        sphere([0.3 * h, 0.0, h], r),
+        BLACK,
+        radiance,
+    );
     let truth = Picture::of(PIXELS, |u, v| {
         0.5 * radiance / PI * irradiance::sphere(h, r, [0.1 * u - 0.3 * h, 0.1 * v])
     });
@@ -80,7 +82,7 @@ fn far() -> (Scene, Picture) {
 
 fn cut() -> (Scene, Picture) {
     let (r, h, x) = (0.3, 0.1, 0.8);
-    let scene = scene("sphere-light-cut", down([x, 0.0, 0.0], 0.4))
+    let scene = scene(down([x, 0.0, 0.0], 0.4))
         .with(floor(0.0), GREY)
         .glowing(sphere([0.0, 0.0, h], r), BLACK, 10.0);
     let truth = Picture::of(PIXELS, |u, v| {
@@ -90,10 +92,10 @@ fn cut() -> (Scene, Picture) {
 }
 
 /// Under a sphere of radius `r` at the height `h`, whose radiance makes up for its size.
-fn under(name: &str, r: f64, h: f64) -> (Scene, Picture) {
+fn under(r: f64, h: f64) -> (Scene, Picture) {
     let radiance = h * h / (r * r);
     let (x, half_width) = (0.3 * h, 0.1 * h);
-    let scene = scene(name, down([x, 0.0, -h], 2.0 * half_width))
+    let scene = scene(down([x, 0.0, -h], 2.0 * half_width))
         .with(floor(-h), GREY)
         .glowing(sphere([0.0; 3], r), BLACK, radiance);
     let truth = Picture::of(PIXELS, |u, v| {

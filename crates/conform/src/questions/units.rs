@@ -36,12 +36,12 @@ pub(super) const SUN: Question = Question {
 };
 
 fn wall_of_light() -> (Scene, Picture) {
-    let scene = scene("wall", along_y(0.2)).glowing(wall(4.0), BLACK, 1.0);
+    let scene = scene(along_y(0.2)).glowing(wall(4.0), BLACK, 1.0);
     (scene, Picture::even(PIXELS, 1.0))
 }
 
 fn under_point() -> (Scene, Picture) {
-    let scene = scene("point-light-unit", down([0.0; 3], 0.2))
+    let scene = scene(down([0.0; 3], 0.2))
         .with(floor(0.0), GREY)
         .lit(Light::Point {
             position_m: [0.0, 0.0, 1.0],
@@ -54,7 +54,7 @@ fn under_point() -> (Scene, Picture) {
 }
 
 fn under_sun() -> (Scene, Picture) {
-    let scene = scene("sun-unit", down([0.0; 3], 0.2))
+    let scene = scene(down([0.0; 3], 0.2))
         .with(floor(0.0), GREY)
         .lit(Light::Sun {
             direction: [0.0, 0.0, -1.0],
