@@ -190,15 +190,34 @@ def camera(item):
     aim(bpy.context.scene.camera, item["origin_m"], forward, item["up"])
 
 
+def sky_map(tree, item):
+    """The colour of a map. Its rows are stored from below; +z is the zenith, and columns begin at -x and go on toward +y."""
+    if item["interpolation"] not in ("none", "linear"):
+        raise Unsupported("environment maps have rows in the middle of their cells, and this sky has not")
+    rows, columns = item["rows"], item["columns"]
+    pixels = np.ones((rows, columns, 4))
+    pixels[:, :, :3] = np.reshape(item["radiance"], (rows, columns, 1))[::-1, ::-1]
+    image = bpy.data.images.new("sky", columns, rows, float_buffer=True)
+    image.colorspace_settings.name = "Non-Color"
+    image.pixels.foreach_set(pixels.astype(np.float32).ravel())
+    interpolation = {"none": "Closest", "linear": "Linear"}[item["interpolation"]]
+    texture = node(tree, "TexEnvironment", {"image": image, "interpolation": interpolation})
+    up, first = Vector(item["zenith"]), Vector(item["meridian"])
+    turn = node(tree, "Mapping", Rotation=Matrix((-first, -up.cross(first), up)).to_euler())
+    tree.links.new(node(tree, "TexCoord").outputs["Generated"], turn.inputs["Vector"])
+    tree.links.new(turn.outputs[0], texture.inputs["Vector"])
+    return texture.outputs["Color"]
+
+
 def sky(item):
     """What surrounds all."""
-    if item and item["kind"] != "even":
-        raise Unsupported(f"the sky {item['kind']} is not known")
     world = bpy.data.worlds.new("world")
     bpy.context.scene.world, world.use_nodes = world, True
     background = world.node_tree.nodes["Background"]
     background.inputs["Color"].default_value = grey(1.0)
-    background.inputs["Strength"].default_value = item["radiance"] if item else 0.0
+    background.inputs["Strength"].default_value = item.get("radiance", 0.0) if item and item["kind"] == "even" else float(bool(item))
+    if item and item["kind"] == "map":
+        world.node_tree.links.new(sky_map(world.node_tree, item), background.inputs["Color"])
 
 
 def settings(job, pixels):

@@ -111,10 +111,15 @@ def camera(item, pixels):
 
 
 def sky(item):
-    """What surrounds all, as an emitter."""
-    if item["kind"] != "even":
-        raise Unsupported(f"the sky {item['kind']} is not known")
-    return {"type": "constant", "radiance": item["radiance"]}
+    """What surrounds all, as an emitter. In maps +y is the zenith, and columns begin at -z and go on toward +x."""
+    if item["kind"] == "even":
+        return {"type": "constant", "radiance": item["radiance"]}
+    if item["interpolation"] != "rows_to_poles":
+        raise Unsupported("environment maps are bilinear, with rows at the poles, and this sky is not")
+    up, first = np.array(item["zenith"]), np.array(item["meridian"])
+    grey = np.array(item["radiance"], np.float32).reshape(item["rows"], item["columns"])[:, ::-1]
+    bitmap = mi.Bitmap(np.repeat(grey[:, :, None], 3, axis=2))
+    return {"type": "envmap", "bitmap": bitmap, "to_world": placed([-np.cross(up, first), up, -first], [0, 0, 0])}
 
 
 def render(scene, job):

@@ -1,9 +1,10 @@
-//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `efficiency`, `speed`, `bits`, `book`, `denoiser`, `gallery`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
+//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `calibrate-conform`, `efficiency`, `speed`, `bits`, `book`, `denoiser`, `gallery`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
 
 mod accelerators;
 mod bits;
 mod book;
 mod calibrate;
+mod calibrate_conform;
 mod compatibility;
 mod denoiser;
 mod efficiency;
@@ -45,6 +46,8 @@ enum Task {
     Mutants(mutants::Arguments),
     /// Show that the validation's error rates are what they are said to be
     Calibrate(calibrate::Arguments),
+    /// Show on simulated programs that `etalon conform` accuses as rarely as it says
+    CalibrateConform(calibrate_conform::Arguments),
     /// Measure by how much estimators are better than others (`benches/efficiency.toml`)
     Efficiency(efficiency::Arguments),
     /// Measure noise, time and efficiency on a list of scenes, beside Mitsuba 3's (`benches/speed.toml`)
@@ -76,6 +79,7 @@ fn main() -> ExitCode {
         Task::Validate(arguments) => return validate::run(&arguments),
         Task::Mutants(arguments) => return mutants::run(&arguments),
         Task::Calibrate(arguments) => return calibrate::run(&arguments),
+        Task::CalibrateConform(arguments) => return calibrate_conform::run(&arguments),
         Task::Speed(arguments) => return speed::run(&arguments),
         Task::References(arguments) => references::run(&arguments),
         Task::Efficiency(arguments) => efficiency::run(&arguments),

@@ -15,6 +15,8 @@
 //! With `batch = true` the command runs once and reads jobs, one JSON object a line with these names, from its standard input.
 //! For each it answers a line: `{"out": …}`, `{"unsupported": "why"}` or `{"error": "what"}`.
 
+use crate::job::Job;
+use crate::mode::Mode;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -49,8 +51,8 @@ pub struct Description {
     /// Whether pictures depend on a seed; if not, every replicate is another pose.
     #[serde(default = "yes")]
     pub seed: bool,
-    /// Whether the program looks for lights. One that finds them by chance alone may miss small ones in every picture and
-    /// still be right in the mean, so it is never called too dark.
+    /// Whether the program looks for lights with an extent. One that finds them by chance alone may miss small ones in every picture
+    /// and still be right in the mean; it is not called too dark for that.
     #[serde(default = "yes")]
     pub samples_lights: bool,
     /// What one has to know: units, factors with their reasons.
@@ -168,7 +170,10 @@ impl Driver {
             let absolute = std::path::absolute(&script).unwrap_or(script);
             words.insert("driver", path(&absolute));
         }
-        Ok(Self { description, words })
+        let driver = Self { description, words };
+        // A word that names something that there is not is told before anything is rendered.
+        driver.command(&Job::example().values(Path::new(""), 1, Mode::default()))?;
+        Ok(driver)
     }
 
     /// The program's version, as it says itself.
@@ -227,7 +232,7 @@ impl Driver {
             let value = value.ok_or_else(|| {
                 let names: Vec<_> = self.words.keys().chain(values.keys()).copied().collect();
                 format!(
-                    "`{word}` asks for `{{{name}}}`: there are {}",
+                    "there is no `{{{name}}}` for `{word}`: there are {}",
                     names.join(", ")
                 )
             })?;

@@ -34,5 +34,6 @@ drivers! {
     "mitsuba" "mitsuba.toml" "mitsuba.py" "protocol.py",
     "mitsuba-spectral" "mitsuba-spectral.toml" "mitsuba.py" "protocol.py",
     "cycles" "cycles.toml" "cycles.py" "protocol.py",
+    "luxcore" "luxcore.toml" "luxcore.py" "protocol.py",
     "povray" "povray.toml" "povray.py" "protocol.py",
 }

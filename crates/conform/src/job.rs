@@ -16,21 +16,44 @@ pub struct Job {
     pub samples: u32,
     /// The seed of the program.
     pub seed: u32,
+    /// Whether the picture is there already, and is rendered once more.
+    pub again: bool,
     /// The format of the picture.
     pub picture: PictureFormat,
 }
 
 impl Job {
+    /// Any job.
+    pub(crate) fn example() -> Self {
+        Self {
+            question: "wall".to_owned(),
+            pose: 0,
+            samples: 1,
+            seed: 1,
+            again: false,
+            picture: PictureFormat::default(),
+        }
+    }
+
     /// Name of its scene's files, without their ending.
     pub fn scene_name(&self) -> String {
-        format!("{}-pose{}", self.question, self.pose)
+        Self::scene_of(&self.question, self.pose)
+    }
+
+    /// Name of the files of a question in a pose, without their ending.
+    pub(crate) fn scene_of(question: &str, pose: u32) -> String {
+        format!("{question}-pose{pose}")
     }
 
     /// Its picture within a folder.
     pub fn picture(&self, folder: &Path) -> PathBuf {
         let (samples, seed) = (self.samples, self.seed);
         let ending = self.picture.ending();
-        let name = format!("{}-n{samples}-seed{seed}.{ending}", self.scene_name());
+        let again = if self.again { "-again" } else { "" };
+        let name = format!(
+            "{}-n{samples}-seed{seed}{again}.{ending}",
+            self.scene_name()
+        );
         folder.join("pictures").join(name)
     }
 

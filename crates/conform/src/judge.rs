@@ -3,25 +3,35 @@
 //! The unit is one render. Of each the mean of the picture and of its tiles are compared with the truth's, over all renders: by
 //! Student's t, or where their distribution forbids that, at a lower level or not at all. Two levels hold for all questions of a run
 //! together (Bonferroni): an interval for *agrees* misses its truth with probability [`Rules::miss`], a sound program is accused with
-//! [`Rules::alarm`]. That a mean is too large can be shown whatever the tails ([`etalon_statistics::e_value`]). That
-//! it is too small cannot: a rare flash may still be to come. So nothing is called too dark, no tile either, where one picture
-//! carries most of the light; a program whose light comes in flashes rarer than the pictures of a run cannot be told from a
-//! dark one.
+//! [`Rules::alarm`].
+//!
+//! That a mean is too large can be shown whatever the tails ([`etalon_statistics::e_value`]). That it is too small cannot without a
+//! bound b on single samples ([`Rules::brightest`]): a rare flash may still be to come. If flashes of b at most carried the light that is
+//! missing, a share d of all, n samples would have seen n d/b of them or more, and none with the probability
+//!
+//! ```text
+//! P ≤ (1 − d/b)ⁿ ≤ exp(−n d/b)
+//! ```
+//!
+//! Nothing is called too dark, no tile either, unless that is as rare as a false alarm may be.
 
-use crate::replicate::{self, Replicate};
+use crate::copies::{self, Copies};
+use crate::plan;
+use crate::refinement::Refinement;
+use crate::replicate::Replicate;
 use crate::suspicion;
+use crate::tile::{self, TILES};
 use crate::truth::Picture;
+use etalon_math::float64::ln;
 use etalon_statistics::bootstrap::Resampling;
 use etalon_statistics::judgement::{self, Symmetry};
 use etalon_statistics::tails::Limits;
 use etalon_statistics::{Summary, e_value};
 use serde::{Deserialize, Serialize};
 
-/// Tiles along a side of a picture.
-pub const TILES: u32 = 4;
-
-/// The relative difference of a tile beyond which a program differs, unless [`Rules`] say otherwise.
-pub const TILE_BOUND: f64 = 0.03;
+/// No sample of a sound program that looks for lights is brighter than this many times the truth's brightest pixel. Of one that finds
+/// them by chance none is brighter than that, or than a light.
+pub const BRIGHTEST: f64 = 10.0;
 
 /// What is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,21 +46,34 @@ pub struct Rules {
     pub alarm: f64,
     /// How many questions and looks share these.
     pub family: u32,
-    /// Whether the program can be called too dark: not one that finds lights by chance alone.
-    pub darkness: bool,
+    /// Samples per pixel of a picture.
+    pub samples: u32,
+    /// The radiance that no sample of a sound program exceeds.
+    pub brightest: f64,
 }
 
 impl Rules {
     /// δ = 0.5 %; 3 % of a tile; 10⁻³ and 10⁻⁵ for this many questions, each looked at so often.
-    pub fn new(questions: usize, looks: u32) -> Self {
+    pub fn new(questions: usize, looks: u32, samples: u32, brightest: f64) -> Self {
         Self {
-            bound: 0.005,
-            tile_bound: TILE_BOUND,
+            bound: plan::BOUND,
+            tile_bound: tile::BOUND,
             miss: 1e-3,
             alarm: 1e-5,
             family: (questions as u32 * looks).max(1),
-            darkness: true,
+            samples,
+            brightest,
         }
+    }
+
+    /// The level of an interval that may not miss.
+    fn miss_level(&self) -> f64 {
+        self.miss / f64::from(self.family)
+    }
+
+    /// The level of each of the means, of a picture or a tile, by which a program may be accused.
+    fn alarm_level(&self) -> f64 {
+        self.alarm / (f64::from(self.family) * f64::from(1 + TILES * TILES))
     }
 }
 
@@ -86,6 +109,8 @@ pub struct Finding {
     pub tile: Option<(u32, u32, f64)>,
     /// What the difference looks like.
     pub suspicion: Option<String>,
+    /// What was found with more samples.
+    pub refinement: Option<Refinement>,
     /// The means of the pictures over the truth's, by pose.
     pub replicates: Vec<(u32, f64)>,
 }
@@ -100,6 +125,7 @@ impl Finding {
             run_interval: None,
             tile: None,
             suspicion: None,
+            refinement: None,
             replicates: Vec::new(),
         }
     }
@@ -107,205 +133,251 @@ impl Finding {
 
 /// Judges the pictures of one question.
 pub fn judge(truth: &Picture, replicates: &[Replicate], rules: &Rules) -> Finding {
-    let ratios: Vec<f64> = replicates
-        .iter()
-        .map(|replicate| replicate.mean() / truth.mean())
-        .collect();
-    let mut finding = Finding {
-        replicates: replicates
-            .iter()
-            .map(|r| r.pose)
-            .zip(ratios.clone())
-            .collect(),
-        ..Finding::of(Verdict::Undecided(String::new()))
-    };
-    let asked = Asked {
-        truth,
-        replicates,
-        ratios: &ratios,
-        rules,
-    };
-    finding.verdict = match copies(replicates, truth.pixels) {
-        Copies::All if noise(replicates) > rules.bound => Verdict::Broken(
-            "all seeds gave the same bits, and not of a picture without noise: they are no replicates"
-                .to_owned(),
-        ),
-        Copies::All => asked.without_noise(&mut finding),
-        Copies::Some(a, b) => Verdict::Broken(format!(
-            "seeds {a} and {b} gave the same bits: they are no replicates"
-        )),
-        Copies::None => asked.with_noise(&mut finding),
-    };
+    let asked = Asked::new(truth, replicates, rules);
     let alarm = rules.alarm / f64::from(rules.family);
-    finding.suspicion = match finding.verdict {
-        Verdict::Differs => {
-            suspicion::of(truth, replicates).or_else(|| poses_differ(&finding.replicates, alarm))
+    let decision = asked.decide();
+    let ratios = || asked.ratios.iter();
+    let biases: Vec<f64> = ratios().map(|ratio| ratio - 1.0).collect();
+    let of_poses: Vec<(u32, f64)> = (replicates.iter().map(|r| r.pose))
+        .zip(ratios().copied())
+        .collect();
+    let poses_differ = || suspicion::poses_differ(&of_poses, alarm);
+    let suspicion = match &decision.verdict {
+        Verdict::Differs => suspicion::of(truth, replicates).or_else(poses_differ),
+        // Not accused; but most who are too dark have a unit wrong.
+        Verdict::Undecided(why) if why == A_FEW_COULD_MAKE_UP => {
+            suspicion::of(truth, replicates).or_else(poses_differ)
         }
-        Verdict::Undecided(_) => poses_differ(&finding.replicates, alarm),
+        Verdict::Undecided(_) => poses_differ(),
         _ => None,
     };
-    finding
-}
-
-/// Whether seeds made a difference.
-enum Copies {
-    None,
-    /// Two seeds of one pose gave the same, others did not.
-    Some(u32, u32),
-    /// All of a pose are the same.
-    All,
-}
-
-fn copies(replicates: &[Replicate], pixels: u32) -> Copies {
-    let Some(mean) = replicate::mean(replicates, pixels) else {
-        return Copies::None;
+    let [interval, run_interval] = match (&decision.verdict, decision.noise) {
+        (Verdict::Broken(_), _) => [None; 2],
+        (_, false) => [range(&biases); 2],
+        (_, true) => [0.05, rules.miss_level()].map(|level| interval(&biases, level)),
     };
-    let mut twins = None;
-    let (mut pairs, mut same) = (0, 0);
-    for (i, a) in replicates.iter().enumerate() {
-        for b in replicates[..i].iter().filter(|b| b.pose == a.pose) {
-            pairs += 1;
-            if a.is_copy_of(b) {
-                same += 1;
-                // Pictures without noise may well be the same by chance.
-                if difference(&a.luminance, &mean.means) > NO_NOISE {
-                    twins = twins.or(Some((b.seed, a.seed)));
-                }
-            }
-        }
-    }
-    match twins {
-        _ if pairs > 0 && same == pairs => Copies::All,
-        None => Copies::None,
-        Some((a, b)) => Copies::Some(a, b),
+    let judged = !matches!(decision.verdict, Verdict::Broken(_));
+    let summary = Summary::of(&biases).filter(|_| judged);
+    Finding {
+        bias: summary.map(|summary| summary.mean()),
+        interval,
+        run_interval,
+        tile: decision.tile,
+        suspicion,
+        replicates: of_poses,
+        ..Finding::of(decision.verdict)
     }
 }
 
-/// With less noise than this in a pixel, relative to the mean, pictures of different seeds may well be the same by chance.
-const NO_NOISE: f64 = 1e-3;
-
-/// The difference of two pictures, root mean square over pixels, relative to their mean.
-fn difference(a: &[f64], b: &[f64]) -> f64 {
-    let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
-    let sum: f64 = a.iter().chain(b).sum();
-    match square > 0.0 {
-        true => (square * a.len() as f64).sqrt() / (0.5 * sum.abs()),
-        false => 0.0,
-    }
-}
-
-/// The greatest difference of a picture from the first. A sound picture is the same in every pose but for its noise, and so is a
-/// wrong one without noise.
-fn noise(replicates: &[Replicate]) -> f64 {
-    let Some((first, others)) = replicates.split_first() else {
-        return 0.0;
-    };
-    others
-        .iter()
-        .map(|other| difference(&first.luminance, &other.luminance))
-        .fold(0.0, f64::max)
+/// The verdict alone, as [`judge`] finds it.
+pub fn decide(truth: &Picture, replicates: &[Replicate], rules: &Rules) -> Verdict {
+    Asked::new(truth, replicates, rules).decide().verdict
 }
 
 /// Why a dark picture accuses nobody.
-const FOUND_BY_CHANCE: &str =
-    "too dark so far; but the program finds lights by chance alone, and may have missed some";
+const A_FEW_COULD_MAKE_UP: &str =
+    "too dark so far; but a few bright samples that have not come yet could make up for it";
+
+/// More pictures than this many times those that there are, are not advised.
+const MOST_TO_ADVISE: f64 = 100.0;
+
+/// Pictures whose difference from the bound is this many times that among them are all beyond it.
+const FAR: f64 = 3.0;
 
 /// A question with its answers.
 struct Asked<'a> {
     truth: &'a Picture,
     replicates: &'a [Replicate],
     /// Their means over the truth's.
-    ratios: &'a [f64],
+    ratios: Vec<f64>,
     rules: &'a Rules,
 }
 
-impl Asked<'_> {
-    /// Pictures that no seed changes are judged as they are.
-    fn without_noise(&self, finding: &mut Finding) -> Verdict {
-        let rules = self.rules;
-        let biases = self.ratios.iter().map(|ratio| ratio - 1.0);
-        let least = biases.clone().fold(f64::INFINITY, f64::min);
-        let most = biases.clone().fold(f64::NEG_INFINITY, f64::max);
-        finding.bias = Some(biases.sum::<f64>() / self.ratios.len() as f64);
-        finding.interval = Some([least, most]);
-        finding.run_interval = finding.interval;
-        finding.tile = self.worst_tile(|sample| {
-            let beyond = |off: &&f64| **off > 1.0 || rules.darkness && **off < -1.0;
-            sample.iter().find(beyond).copied()
-        });
-        let too_dark = least < -rules.bound;
-        if most > rules.bound || too_dark && rules.darkness || finding.tile.is_some() {
-            Verdict::Differs
-        } else if too_dark {
-            Verdict::Undecided(FOUND_BY_CHANCE.to_owned())
-        } else {
-            Verdict::Agrees
+/// What came of it.
+struct Decision {
+    verdict: Verdict,
+    /// See [`Finding::tile`].
+    tile: Option<(u32, u32, f64)>,
+    /// Whether seeds made a difference.
+    noise: bool,
+}
+
+impl<'a> Asked<'a> {
+    fn new(truth: &'a Picture, replicates: &'a [Replicate], rules: &'a Rules) -> Self {
+        let mean = truth.mean();
+        Self {
+            truth,
+            replicates,
+            ratios: replicates.iter().map(|r| r.mean() / mean).collect(),
+            rules,
         }
     }
 
-    fn with_noise(&self, finding: &mut Finding) -> Verdict {
+    fn decide(&self) -> Decision {
+        let broken = |how: String| Decision {
+            verdict: Verdict::Broken(how),
+            tile: None,
+            noise: true,
+        };
+        match Copies::among(self.replicates, self.truth.pixels) {
+            Copies::All if copies::noise(self.replicates) > self.rules.bound => broken(
+                "all seeds gave the same bits, and not of a picture without noise: they are no replicates".to_owned(),
+            ),
+            Copies::All => self.without_noise(),
+            Copies::Some(a, b) => broken(format!(
+                "seeds {a} and {b} gave the same bits: they are no replicates"
+            )),
+            Copies::None => self.with_noise(),
+        }
+    }
+
+    /// Pictures that no seed changes are judged as they are.
+    fn without_noise(&self) -> Decision {
+        let biases: Vec<f64> = self.ratios.iter().map(|ratio| ratio - 1.0).collect();
+        let bound = self.rules.bound;
+        let tile = self.worst_tile(|known, sample| {
+            let beyond = |off: &&f64| **off > 1.0 || self.tile_is_dark(known, **off);
+            sample.iter().find(beyond).copied()
+        });
+        let verdict = match range(&biases) {
+            Some([low, high]) if high > bound || tile.is_some() || self.is_dark(low) => {
+                Verdict::Differs
+            }
+            Some([low, _]) if low < -bound => Verdict::Undecided(A_FEW_COULD_MAKE_UP.to_owned()),
+            _ => Verdict::Agrees,
+        };
+        Decision {
+            verdict,
+            tile,
+            noise: false,
+        }
+    }
+
+    fn with_noise(&self) -> Decision {
+        let decision = |verdict, tile| Decision {
+            verdict,
+            tile,
+            noise: true,
+        };
         let rules = self.rules;
         let biases: Vec<f64> = self.ratios.iter().map(|ratio| ratio - 1.0).collect();
-        let Some(summary) = Summary::of(&biases).filter(|_| biases.len() >= 3) else {
-            return Verdict::Undecided(format!("{} pictures are too few", biases.len()));
-        };
-        finding.bias = Some(summary.mean());
-        let family = f64::from(rules.family);
-        let tiles = f64::from(TILES * TILES);
-        let (miss, alarm) = (rules.miss / family, rules.alarm / (family * (1.0 + tiles)));
-        let at = |level: f64| interval(&biases, level);
-        finding.interval = at(0.05);
-        finding.run_interval = at(miss);
-        let of_picture = at(alarm);
-        let darkness = rules.darkness && of_picture.is_some();
-        finding.tile = self.worst_tile(|sample| {
+        if biases.len() < 3 {
+            let few = format!("{} pictures are too few", biases.len());
+            return decision(Verdict::Undecided(few), None);
+        }
+        let alarm = rules.alarm_level();
+        let of_picture = interval(&biases, alarm);
+        let tile = self.worst_tile(|known, sample| {
             let [low, high] = interval(sample, alarm)?;
             let mean = sample.iter().sum::<f64>() / sample.len() as f64;
-            (low > 1.0 || darkness && high < -1.0).then_some(mean)
+            // Flashes in other tiles are to be expected in this one.
+            let dark = || of_picture.is_some() && self.tile_is_dark(known, high);
+            (low > 1.0 || dark()).then_some(mean)
         });
-        // Deviations that do not matter need no distribution.
-        if biases.iter().all(|bias| bias.abs() <= 0.1 * rules.bound) && finding.tile.is_none() {
-            return Verdict::Agrees;
+        if tile.is_none()
+            && let Some(verdict) = self.of_little_noise(&biases)
+        {
+            return decision(verdict, None);
         }
-        let beyond = |[low, high]: [f64; 2]| low > rules.bound || darkness && high < -rules.bound;
-        let too_bright = e_value::exceeds(self.ratios, 1.0 + rules.bound) >= 1.0 / alarm;
-        if of_picture.is_some_and(beyond) || too_bright || finding.tile.is_some() {
-            return Verdict::Differs;
+        let beyond = |[low, high]: [f64; 2]| low > rules.bound || self.is_dark(high);
+        let too_bright = || e_value::exceeds(&self.ratios, 1.0 + rules.bound) >= 1.0 / alarm;
+        if tile.is_some() || of_picture.is_some_and(beyond) || too_bright() {
+            return decision(Verdict::Differs, tile);
         }
-        match finding.run_interval {
+        let verdict = match interval(&biases, rules.miss_level()) {
             Some([low, high]) if low >= -rules.bound && high <= rules.bound => Verdict::Agrees,
-            Some([_, high]) if high < -rules.bound && !rules.darkness => {
-                Verdict::Undecided(FOUND_BY_CHANCE.to_owned())
+            Some([_, high]) if high < -rules.bound => {
+                Verdict::Undecided(A_FEW_COULD_MAKE_UP.to_owned())
             }
-            Some([low, high]) => Verdict::Undecided(format!(
-                "the interval is ± {:.2} % wide at the level of the run",
-                50.0 * (high - low)
-            )),
+            Some(interval) => Verdict::Undecided(self.what_it_would_take(interval)),
             None => Verdict::Undecided(
                 "a few pictures carry most of the light, and no test reaches the level of the run"
                     .to_owned(),
             ),
+        };
+        decision(verdict, None)
+    }
+
+    /// Noise that does not matter needs no distribution: all pictures are well within the bound, or farther beyond it than they are from
+    /// each other.
+    fn of_little_noise(&self, biases: &[f64]) -> Option<Verdict> {
+        let (bound, [low, high]) = (self.rules.bound, range(biases)?);
+        let far = FAR * (high - low);
+        let half = 0.5 * bound;
+        if low >= -half && high <= half && self.would_have_come(half * self.truth.mean(), 1.0) {
+            Some(Verdict::Agrees)
+        } else if low > bound + far || high < -bound - far && self.is_dark(high) {
+            Some(Verdict::Differs)
+        } else {
+            None
         }
     }
 
-    /// The tile that is farthest beyond its bound: column, row, and by how many bounds; `beyond` says by how many a sample of
-    /// deviations, in bounds, is shown to be, if it is.
-    fn worst_tile(&self, beyond: impl Fn(&[f64]) -> Option<f64>) -> Option<(u32, u32, f64)> {
-        let Self {
-            truth,
-            replicates,
-            rules,
-            ..
-        } = self;
+    /// Why an interval decides nothing.
+    fn what_it_would_take(&self, [low, high]: [f64; 2]) -> String {
+        let bound = self.rules.bound;
+        let farthest = if -low > high { low } else { high };
+        let mut text = format!(
+            "at the level of the run the mean may be off by {:+.2} %, and ± {} % are allowed",
+            100.0 * farthest,
+            100.0 * bound
+        );
+        // The interval narrows with the root of their number.
+        let room = bound - (0.5 * (low + high)).abs();
+        let more = (0.5 * (high - low) / room).powi(2);
+        if room > 0.0 && more < MOST_TO_ADVISE {
+            text += &format!(
+                "; about {:.0} pictures would tell",
+                more * self.replicates.len() as f64
+            );
+        }
+        text
+    }
+
+    /// Whether a mean that is off by this at most is too small.
+    fn is_dark(&self, bias: f64) -> bool {
+        let missing = -self.rules.bound - bias;
+        missing > 0.0 && self.would_have_come(missing * self.truth.mean(), 1.0)
+    }
+
+    /// Whether a tile that is off by this many of its bounds at most is too dark.
+    fn tile_is_dark(&self, known: f64, bounds: f64) -> bool {
+        let missing = -1.0 - bounds;
+        missing > 0.0 && self.would_have_come(missing * self.off(known), f64::from(TILES * TILES))
+    }
+
+    /// Whether this much radiance, missing in one of `parts` equal parts of all pictures, would have come by now, in however rare
+    /// samples.
+    fn would_have_come(&self, missing: f64, parts: f64) -> bool {
+        let pixels = f64::from(self.truth.pixels * self.truth.pixels);
+        let samples = pixels * f64::from(self.rules.samples) * self.replicates.len() as f64 / parts;
+        // A pixel that is brighter shows that samples are.
+        let pixels = self
+            .replicates
+            .iter()
+            .flat_map(|picture| &picture.luminance);
+        let brightest = pixels.copied().fold(self.rules.brightest, f64::max);
+        samples * missing / brightest >= -ln(self.rules.alarm_level())
+    }
+
+    /// How far a tile of this mean may be off.
+    fn off(&self, known: f64) -> f64 {
+        self.rules.tile_bound * known + self.rules.bound * self.truth.mean()
+    }
+
+    /// The tile that is farthest beyond its bound: column, row, and by how many bounds; `beyond` says, of a tile's mean and a sample
+    /// of deviations in bounds, by how many it is shown to be, if it is.
+    fn worst_tile(&self, beyond: impl Fn(f64, &[f64]) -> Option<f64>) -> Option<(u32, u32, f64)> {
+        let pixels = self.truth.pixels;
         let deviation = |place: u32| {
             let [column, row] = [place % TILES, place / TILES];
-            let known = tile_mean(&truth.means, truth.pixels, [column, row]);
-            let bound = rules.tile_bound * known + rules.bound * truth.mean();
+            let known = tile::mean(&self.truth.means, pixels, [column, row]);
+            let bound = self.off(known);
             let off = |replicate: &Replicate| {
-                (tile_mean(&replicate.luminance, truth.pixels, [column, row]) - known) / bound
+                (tile::mean(&replicate.luminance, pixels, [column, row]) - known) / bound
             };
-            let sample: Vec<f64> = replicates.iter().map(off).collect();
-            Some((column, row, beyond(&sample)?))
+            let sample: Vec<f64> = self.replicates.iter().map(off).collect();
+            Some((column, row, beyond(known, &sample)?))
         };
         (0..TILES * TILES)
             .filter_map(deviation)
@@ -313,40 +385,25 @@ impl Asked<'_> {
     }
 }
 
+/// The least and the greatest.
+fn range(biases: &[f64]) -> Option<[f64; 2]> {
+    let least = biases.iter().copied().reduce(f64::min)?;
+    Some([least, biases.iter().copied().reduce(f64::max)?])
+}
+
 /// An interval of a mean at a level, if any method reaches it.
-fn interval(sample: &[f64], level: f64) -> Option<[f64; 2]> {
-    let plan = Resampling::independent(20_000, 1);
-    let judged = judgement::judge(sample, level, Symmetry::Unknown, &Limits::DECLARED, &plan)?;
+pub(crate) fn interval(sample: &[f64], level: f64) -> Option<[f64; 2]> {
+    let judged = judgement::judge(
+        sample,
+        level,
+        Symmetry::Unknown,
+        &Limits::DECLARED,
+        &RESAMPLING,
+    )?;
     judged
         .interval
         .map(|(interval, _)| [interval.low, interval.high])
 }
 
-/// Whether the first two poses are shown to differ, as no seed makes them.
-fn poses_differ(replicates: &[(u32, f64)], level: f64) -> Option<String> {
-    let of = |pose: u32| -> Vec<f64> {
-        let own = replicates.iter().filter(|(other, _)| *other == pose);
-        own.map(|(_, ratio)| ratio - 1.0).collect()
-    };
-    let [a, b] = [of(0), of(1)];
-    let plan = Resampling::independent(20_000, 1);
-    let limits = &Limits::DECLARED;
-    let judged = judgement::judge_difference(&a, &b, level, Symmetry::Unknown, limits, &plan)?;
-    let (interval, _) = judged.interval?;
-    let mean = |sample: &[f64]| 100.0 * sample.iter().sum::<f64>() / sample.len() as f64;
-    (!interval.contains(0.0)).then(|| {
-        format!(
-            "its poses differ, {:+.2} % and {:+.2} %: rounding, or something that depends on direction or size",
-            mean(&a),
-            mean(&b)
-        )
-    })
-}
-
-/// The mean of a tile of a picture.
-pub fn tile_mean(means: &[f64], pixels: u32, [column, row]: [u32; 2]) -> f64 {
-    let side = (pixels / TILES) as usize;
-    let [left, top] = [column, row].map(|n| n as usize * side);
-    let rows = (top..top + side).map(|y| &means[y * pixels as usize + left..][..side]);
-    rows.flatten().sum::<f64>() / (side * side) as f64
-}
+/// How samples are drawn again where they are too skewed for Student's t.
+pub(crate) const RESAMPLING: Resampling = Resampling::independent(20_000, 1);

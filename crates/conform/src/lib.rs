@@ -5,17 +5,21 @@
 //! it, each time with a seed of its own. What comes back is [`judge`]d by the statistics of replicates: it *agrees* with the
 //! truth within a bound, *differs* from it, or is *undecided*; nothing is ever asked to be equal.
 
+mod copies;
 pub mod driver;
 pub mod drivers;
+pub mod folder;
 pub mod job;
 pub mod judge;
 pub mod mitsuba_xml;
 pub mod mode;
+pub mod null_programs;
 pub mod page;
 pub mod plan;
 pub mod pose;
 pub mod question;
 pub mod questions;
+pub mod refinement;
 pub mod replicate;
 pub mod report;
 pub mod runner;
@@ -23,4 +27,5 @@ pub mod scene;
 pub mod suite;
 mod suspicion;
 pub mod tier;
+pub mod tile;
 pub mod truth;

@@ -5,7 +5,8 @@
 
 use crate::mode::Mode;
 use crate::scene::{
-    Camera, Light, Material, Object, Projection, Scene, Shape, Sky, Triple, quad_normal,
+    Camera, Interpolation, Light, Material, Object, Projection, Scene, Shape, Sky, Triple,
+    quad_normal,
 };
 use std::fmt::Write;
 
@@ -15,7 +16,7 @@ pub struct MitsubaXml {
     /// The scene's text.
     pub text: String,
     /// Names and texts of the files that it names.
-    pub files: Vec<(String, String)>,
+    pub files: Vec<(String, Vec<u8>)>,
 }
 
 /// Writes a scene, whose own files are named after `name`.
@@ -33,7 +34,7 @@ pub fn write(scene: &Scene, name: &str, mode: Mode) -> Result<MitsubaXml, String
             triangles,
         } = &object.shape
         {
-            files.push((file, obj(positions_m, triangles)));
+            files.push((file, obj(positions_m, triangles).into_bytes()));
         }
     }
     scene
@@ -46,8 +47,10 @@ pub fn write(scene: &Scene, name: &str, mode: Mode) -> Result<MitsubaXml, String
             let radiance = rgb("radiance", *radiance);
             let _ = writeln!(body, "  <emitter type=\"constant\">{radiance}</emitter>");
         }
-        Some(Sky::Map { .. }) => {
-            return Err("environment maps are interpolated, and this sky is not".to_owned());
+        Some(map @ Sky::Map { .. }) => {
+            let file = format!("{name}.pfm");
+            files.push((file.clone(), pfm(map)?));
+            body += &environment(map, &file);
         }
     }
     let depth = match mode {
@@ -257,6 +260,47 @@ fn light(light: &Light) -> String {
             rgb("irradiance", irradiance)
         ),
     }
+}
+
+/// The plugin for a map: there +y is the zenith, and columns begin at −z and go on toward +x.
+fn environment(map: &Sky, file: &str) -> String {
+    let Sky::Map {
+        zenith, meridian, ..
+    } = map
+    else {
+        return String::new();
+    };
+    let (up, first) = (glam::DVec3::from(*zenith), glam::DVec3::from(*meridian));
+    let columns = [-up.cross(first), up, -first];
+    let row = |i: usize| columns.map(|column| number(column[i])).join(" ") + " 0 ";
+    format!(
+        "  <emitter type=\"envmap\"><string name=\"filename\" value=\"{file}\"/>\
+         <transform name=\"to_world\"><matrix value=\"{}0 0 0 1\"/></transform></emitter>\n",
+        [0, 1, 2].map(row).concat()
+    )
+}
+
+/// A map as a portable float map, whose last row comes first. Columns go the other way round there.
+fn pfm(map: &Sky) -> Result<Vec<u8>, String> {
+    let Sky::Map {
+        interpolation: Interpolation::RowsToPoles,
+        rows,
+        columns,
+        radiance,
+        ..
+    } = map
+    else {
+        return Err(
+            "environment maps are bilinear, with rows at the poles, and this sky is not".to_owned(),
+        );
+    };
+    let mut bytes = format!("PF\n{columns} {rows}\n-1.0\n").into_bytes();
+    for row in radiance.chunks(*columns as usize).rev() {
+        for value in row.iter().rev() {
+            bytes.extend((*value as f32).to_le_bytes().repeat(3));
+        }
+    }
+    Ok(bytes)
 }
 
 /// Triangles as OBJ.

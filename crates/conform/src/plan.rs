@@ -7,8 +7,14 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 
+/// δ, unless a strict one is asked for.
+pub const BOUND: f64 = 0.005;
+
+/// δ where a strict one is asked for.
+pub const STRICT_BOUND: f64 = 0.001;
+
 /// What a run is; it stands in `plan.json` of its folder.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Plan {
     /// The version of this file.
@@ -17,6 +23,8 @@ pub struct Plan {
     pub suite_seed: u64,
     /// How much is rendered.
     pub tier: Tier,
+    /// δ: the relative difference of means within which the program agrees.
+    pub bound: f64,
     /// What the program leaves out.
     pub mode: Mode,
     /// The driver's name.
@@ -27,7 +35,7 @@ pub struct Plan {
     pub program_version: String,
     /// Whether every picture has a pose of its own.
     pub pose_each: bool,
-    /// Whether the program looks for lights, so that it can be called too dark.
+    /// Whether the program looks for lights.
     pub samples_lights: bool,
     /// The format of pictures.
     pub picture: PictureFormat,
@@ -35,13 +43,14 @@ pub struct Plan {
     pub questions: Vec<String>,
     /// What the driver says of units and the like.
     pub conventions: BTreeMap<String, serde_json::Value>,
-    /// Part I of N of the questions is rendered, every Nth from the Ith on; the error rates are those of all.
+    /// Part I of N of the questions is rendered, every Nth from the Ith on; the error rates are those of all. The plan in a folder
+    /// is always that of all.
     pub part: [u32; 2],
 }
 
 impl Plan {
     /// The version of the file.
-    pub const VERSION: u32 = 1;
+    pub const VERSION: u32 = 2;
 
     /// The name of a program without a driver, which renders elsewhere.
     pub const ELSEWHERE: &'static str = "elsewhere";
@@ -54,6 +63,7 @@ impl Plan {
             version: Self::VERSION,
             suite_seed,
             tier,
+            bound: BOUND,
             mode,
             program: Self::ELSEWHERE.to_owned(),
             title: "another program".to_owned(),
@@ -81,6 +91,7 @@ impl Plan {
             ..self
         }
     }
+
     /// Reads one from a file.
     ///
     /// # Errors

@@ -30,6 +30,13 @@ impl std::fmt::Debug for Question {
 }
 
 impl Question {
+    /// The seed of its pictures number `index`: those of other questions are other numbers, below 2³⁰.
+    pub fn seed(&self, index: u32) -> u32 {
+        const PICTURES: u32 = 1 << 10;
+        let place = (name_hash(self.name) % (1 << 20)) as u32;
+        PICTURES * place + index % PICTURES + 1
+    }
+
     /// The scene in pose number `index` of a suite's seed, and its picture, which no pose changes.
     pub fn posed(&self, seed: u64, index: u32) -> (Scene, Picture) {
         let (mut scene, truth) = (self.ask)();

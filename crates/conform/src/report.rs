@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
 /// The version of the JSON.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What was found of a program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -16,11 +16,15 @@ pub struct Report {
     pub version: u32,
     /// What was asked.
     pub plan: Plan,
-    /// δ.
-    pub bound: f64,
+    /// Whether a seed gave the same picture twice, if that was asked.
+    pub seed_repeats: Option<bool>,
     /// A row for each question.
     pub rows: Vec<Row>,
 }
+
+/// What is said of a program whose pictures depend on more than the seed.
+pub const SEED_DOES_NOT_REPEAT: &str =
+    "The same seed gave another picture: this program's pictures cannot be repeated.";
 
 /// What was found of a question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,7 +45,7 @@ pub enum Conclusion {
     Differs,
     /// Something could not be judged.
     Broken,
-    /// Something is undecided.
+    /// Something is undecided, or the program can express nothing.
     Undecided,
 }
 
@@ -94,9 +98,11 @@ impl Report {
             ("undecided", Conclusion::Undecided),
         ];
         let mut found = worst.iter().filter(|(word, _)| self.count(word) > 0);
-        found
-            .next()
-            .map_or(Conclusion::Agrees, |(_, conclusion)| *conclusion)
+        match found.next() {
+            Some((_, conclusion)) => *conclusion,
+            None if self.count("agrees") > 0 => Conclusion::Agrees,
+            None => Conclusion::Undecided,
+        }
     }
 
     /// As a table, with a line of counts.
@@ -108,11 +114,14 @@ impl Report {
             .max()
             .unwrap_or(0);
         let mut text = format!(
-            "{} ({}), {} questions, within {} %\n\n",
+            "{} ({}), {}, within {} %\n\n",
             self.plan.title,
             self.plan.program_version,
-            self.rows.len(),
-            100.0 * self.bound
+            match self.rows.len() {
+                1 => "1 question".to_owned(),
+                count => format!("{count} questions"),
+            },
+            100.0 * self.plan.bound
         );
         for row in &self.rows {
             let finding = &row.finding;
@@ -135,7 +144,16 @@ impl Report {
             };
             let reason = finding.verdict.reason().map(str::to_owned);
             let looks = finding.suspicion.clone().or_else(tile);
-            let reason: Vec<String> = reason.into_iter().chain(looks).collect();
+            let more = finding.refinement.as_ref().map(|refinement| {
+                let trend = refinement.trend.map(|trend| format!(": {}", trend.words()));
+                let bias = 100.0 * refinement.bias;
+                format!(
+                    "{bias:+.3} % with 4 × the samples{}",
+                    trend.unwrap_or_default()
+                )
+            });
+            let told = more.filter(|_| finding.verdict != Verdict::Agrees);
+            let reason: Vec<String> = reason.into_iter().chain(looks).chain(told).collect();
             let _ = writeln!(text, "{}", reason.join("; "));
         }
         let words = ["agrees", "differs", "undecided", "not supported", "broken"];
@@ -145,6 +163,9 @@ impl Report {
             .map(|(count, word)| format!("{count} {word}"))
             .collect();
         let _ = writeln!(text, "\n{}", counts.join(", "));
+        if self.seed_repeats == Some(false) {
+            let _ = writeln!(text, "{SEED_DOES_NOT_REPEAT}");
+        }
         text.lines()
             .map(str::trim_end)
             .collect::<Vec<_>>()

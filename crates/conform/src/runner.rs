@@ -63,7 +63,7 @@ impl Place<'_> {
 
 impl Runner<'_> {
     /// Runs the jobs; what became of each, in their order. Jobs that were not begun are missing: after a stop, and those of a question
-    /// that the program cannot express.
+    /// of which one could not be rendered.
     pub(crate) fn run(
         &self,
         driver: &Driver,
@@ -71,11 +71,11 @@ impl Runner<'_> {
         place: Place<'_>,
     ) -> Vec<(Job, Outcome)> {
         let next = Mutex::new(0..jobs.len());
-        let unsupported = Mutex::new(BTreeSet::new());
+        let given_up = Mutex::new(BTreeSet::new());
         let take = || {
             let mut next = locked(&next);
             (!self.stop.load(Ordering::Relaxed))
-                .then(|| next.find(|index| !locked(&unsupported).contains(&jobs[*index].question)))
+                .then(|| next.find(|index| !locked(&given_up).contains(&jobs[*index].question)))
                 .flatten()
         };
         let work = || {
@@ -97,9 +97,7 @@ impl Runner<'_> {
                 if outcome != Outcome::Rendered {
                     // Half a picture must not be taken for one by a later run.
                     let _ = std::fs::remove_file(picture);
-                }
-                if let Outcome::Unsupported(_) = outcome {
-                    locked(&unsupported).insert(job.question.clone());
+                    locked(&given_up).insert(job.question.clone());
                 }
                 (self.done)(job, &outcome);
                 own.push((index, job.clone(), outcome));
@@ -212,7 +210,11 @@ fn listen(stream: impl Read + Send + 'static) -> Receiver<String> {
 
 /// The last line of what was said.
 fn last_line(said: &str) -> String {
-    let line = said.trim().lines().last().unwrap_or("it says nothing");
+    let line = said
+        .trim()
+        .lines()
+        .last()
+        .unwrap_or("it says nothing on standard error");
     line.to_owned()
 }
 

@@ -206,11 +206,11 @@ pub enum Sky {
         /// That radiance.
         radiance: f64,
     },
-    /// A radiance for each cell of a net of meridians and parallels, the same all over the cell: nothing is interpolated.
-    ///
-    /// Row i has the angles from the zenith from iπ/rows to (i + 1)π/rows; column j the azimuths from j 2π/columns to
-    /// (j + 1) 2π/columns, counted from the meridian toward zenith × meridian.
+    /// A radiance for each cell of a net of meridians and parallels. Azimuths are counted from the meridian toward
+    /// zenith × meridian; column j has those from j 2π/columns to (j + 1) 2π/columns.
     Map {
+        /// Where the radiances stand, and what is between.
+        interpolation: Interpolation,
         /// The direction of the first row's upper edge.
         zenith: Triple,
         /// The direction, at a right angle to the zenith, of the first column's edge.
@@ -222,6 +222,18 @@ pub enum Sky {
         /// Radiance toward the scene from each cell, row by row.
         radiance: Vec<f64>,
     },
+}
+
+/// How a sky is between the radiances that are given. Programs have different rules, each with a truth of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Interpolation {
+    /// Not interpolated: row i has the angles from the zenith from iπ/rows to (i + 1)π/rows, and all of a cell is even.
+    None,
+    /// Bilinear in the two angles between the middles of the same cells.
+    Linear,
+    /// Bilinear, but row i stands at the angle iπ/(rows − 1) from the zenith: the first and the last at the poles.
+    RowsToPoles,
 }
 
 impl Scene {
@@ -320,12 +332,14 @@ impl Scene {
         };
         let sky = |sky: &Sky| match sky.clone() {
             Sky::Map {
+                interpolation,
                 zenith,
                 meridian,
                 rows,
                 columns,
                 radiance,
             } => Sky::Map {
+                interpolation,
                 zenith: direction(zenith),
                 meridian: direction(meridian),
                 rows,
@@ -346,6 +360,17 @@ impl Scene {
             sky: self.sky.as_ref().map(sky),
             ..self.clone()
         }
+    }
+
+    /// The greatest radiance that anything with an extent emits.
+    pub fn brightest_emission(&self) -> f64 {
+        let objects = self.objects.iter().map(|object| object.emitted_radiance);
+        let sky = match &self.sky {
+            None => &[][..],
+            Some(Sky::Even { radiance }) => std::slice::from_ref(radiance),
+            Some(Sky::Map { radiance, .. }) => radiance,
+        };
+        objects.chain(sky.iter().copied()).fold(0.0, f64::max)
     }
 
     /// The scene as JSON.

@@ -1,24 +1,25 @@
-//! A run: what is asked of a program, where its scenes and pictures are, and what was found so far.
+//! A run: what is asked of a program, in which order, and what was found so far.
 
+use crate::copies;
 use crate::driver::Driver;
+use crate::folder::Folder;
 use crate::job::Job;
-use crate::judge::{Finding, Rules, Verdict, judge};
-use crate::mitsuba_xml;
+use crate::judge::{BRIGHTEST, Finding, Rules, Verdict, judge};
 use crate::page::Run;
 use crate::plan::Plan;
 use crate::pose::Freedom;
 use crate::question::Question;
+use crate::refinement::{self, Refinement};
 use crate::replicate::{self, Replicate};
 use crate::report::{Report, Row};
 use crate::runner::{Outcome, Place, Runner};
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A run in its folder.
 pub struct Suite {
-    /// The folder, an absolute path.
-    pub folder: PathBuf,
+    /// The folder.
+    pub folder: Folder,
     /// What it is.
     pub plan: Plan,
     questions: Vec<&'static Question>,
@@ -30,29 +31,14 @@ pub struct Suite {
 const POSES: u32 = 2;
 
 impl Suite {
-    /// Begins a run in a folder, or goes on with the same run there; writes its scenes.
+    /// Begins a run in a folder, or goes on with the same run there.
     ///
     /// # Errors
     /// If the folder holds another run, or cannot be written.
     pub fn create(folder: &Path, plan: Plan) -> Result<Self, String> {
-        let folder = std::path::absolute(folder).map_err(|e| at(folder, &e))?;
-        let file = folder.join("plan.json");
-        if file.exists() {
-            let before = Plan::read(&file)?;
-            if before != plan {
-                return Err(format!(
-                    "{} holds another run ({} {}, tier {}, {} questions): give another folder",
-                    folder.display(),
-                    before.title,
-                    before.program_version,
-                    before.tier.name(),
-                    before.questions.len()
-                ));
-            }
-        }
-        let suite = Self::of(folder, plan)?;
-        suite.write()?;
-        Ok(suite)
+        let folder = Folder::at(folder)?;
+        folder.take(&plan)?;
+        Self::of(folder, plan)
     }
 
     /// The run in a folder.
@@ -60,12 +46,12 @@ impl Suite {
     /// # Errors
     /// If there is none, or it is of another version of this program.
     pub fn open(folder: &Path) -> Result<Self, String> {
-        let folder = std::path::absolute(folder).map_err(|e| at(folder, &e))?;
-        let plan = Plan::read(&folder.join("plan.json"))?;
+        let folder = Folder::at(folder)?;
+        let plan = folder.plan()?;
         Self::of(folder, plan)
     }
 
-    fn of(folder: PathBuf, plan: Plan) -> Result<Self, String> {
+    fn of(folder: Folder, plan: Plan) -> Result<Self, String> {
         let question = |name: &String| {
             crate::questions::by_name(name).ok_or_else(|| format!("there is no question `{name}`"))
         };
@@ -78,88 +64,99 @@ impl Suite {
         }
         Ok(Self {
             questions: questions.into_iter().skip(part - 1).step_by(of).collect(),
-            refusals: read_refusals(&folder.join(REFUSALS)),
+            refusals: folder.refusals(),
             folder,
             plan,
         })
     }
 
-    /// Writes the plan and the scenes of all poses, as JSON and as XML.
-    fn write(&self) -> Result<(), String> {
-        let scenes = self.folder.join("scenes");
-        for folder in [&scenes, &self.folder.join("pictures")] {
-            fs::create_dir_all(folder).map_err(|e| at(folder, &e))?;
-        }
-        for question in &self.questions {
-            for pose in 0..self.poses(question) {
-                let (scene, _) = question.posed(self.plan.suite_seed, pose);
-                let name = format!("{}-pose{pose}", question.name);
-                let mut files = vec![(format!("{name}.json"), scene.to_json())];
-                if let Ok(xml) = mitsuba_xml::write(&scene, &name, self.plan.mode) {
-                    files.push((format!("{name}.xml"), xml.text));
-                    files.extend(xml.files);
-                }
-                for (file, text) in files {
-                    let path = scenes.join(file);
-                    fs::write(&path, text).map_err(|e| at(&path, &e))?;
-                }
-            }
-        }
-        let plan = serde_json::to_string_pretty(&self.plan).expect("names and numbers");
-        let file = self.folder.join("plan.json");
-        fs::write(&file, plan).map_err(|e| at(&file, &e))
-    }
-
-    /// How many poses there are of a question.
-    fn poses(&self, question: &Question) -> u32 {
-        match self.plan.pose_each || question.freedom == Freedom::EachAnew {
+    /// A picture of a question.
+    fn job(&self, question: &Question, index: u32) -> Job {
+        // Programs without random numbers have a pose for each picture.
+        let poses = match self.plan.pose_each || question.freedom == Freedom::EachAnew {
             true => self.plan.tier.most(),
             false => POSES,
+        };
+        Job {
+            question: question.name.to_owned(),
+            pose: index % poses,
+            samples: question.samples,
+            seed: question.seed(index),
+            again: false,
+            picture: self.plan.picture,
         }
     }
 
     /// The pictures of a question up to a look.
-    pub fn jobs(&self, question: &Question, count: u32) -> Vec<Job> {
-        (0..count)
-            .map(|index| Job {
-                question: question.name.to_owned(),
-                pose: index % self.poses(question),
-                samples: question.samples,
-                seed: index + 1,
-                picture: self.plan.picture,
-            })
-            .collect()
+    fn jobs(&self, question: &Question, count: u32) -> Vec<Job> {
+        (0..count).map(|index| self.job(question, index)).collect()
     }
 
-    /// All pictures of the first look, for whoever renders them elsewhere.
-    pub fn first_look(&self) -> Vec<Job> {
+    /// The pictures of a question with more samples, of seeds that no other has.
+    fn finer_jobs(&self, question: &Question) -> Vec<Job> {
+        let seed = |job: Job| Job {
+            samples: refinement::FACTOR * job.samples,
+            seed: job.seed + self.plan.tier.most(),
+            ..job
+        };
+        let jobs = self.jobs(question, refinement::PICTURES);
+        jobs.into_iter().map(seed).collect()
+    }
+
+    /// The first picture of a question once more.
+    fn again(&self, question: &Question) -> Job {
+        Job {
+            again: true,
+            ..self.job(question, 0)
+        }
+    }
+
+    /// All pictures of the first look, for whoever renders them elsewhere; their scenes are written.
+    ///
+    /// # Errors
+    /// If the folder cannot be written.
+    pub fn first_look(&self) -> Result<Vec<Job>, String> {
         let count = self.plan.tier.looks().first().copied().unwrap_or(0);
-        (self.questions.iter())
-            .flat_map(|question| self.jobs(question, count))
-            .collect()
+        let mut jobs = Vec::new();
+        for question in &self.questions {
+            let of_question = self.jobs(question, count);
+            self.write_scenes(question, &of_question)?;
+            jobs.extend(of_question);
+        }
+        Ok(jobs)
     }
 
-    /// Renders what is missing, look by look, and judges it; `begin` is called before each with its number and that of its pictures. What fails is told of its question.
+    fn write_scenes(&self, question: &Question, jobs: &[Job]) -> Result<(), String> {
+        let Plan {
+            suite_seed, mode, ..
+        } = self.plan;
+        (jobs.iter()).try_for_each(|job| {
+            self.folder
+                .write_scene(question, job.pose, suite_seed, mode)
+        })
+    }
+
+    /// Renders what is missing, step by step, and judges it; `begin` is called before each step with its name and the number of its
+    /// pictures. What fails is told of its question.
+    ///
+    /// # Errors
+    /// If the folder cannot be written.
     pub fn run(
         &mut self,
         driver: &Driver,
         runner: &Runner<'_>,
-        begin: impl Fn(usize, usize),
-    ) -> Report {
-        self.refusals.clear();
+        begin: impl Fn(&str, usize),
+    ) -> Result<Report, String> {
+        let asked: Vec<&str> = self.questions.iter().map(|q| q.name).collect();
+        self.refusals.retain(|name, _| !asked.contains(&&name[..]));
         let mut open = self.questions.clone();
         for (look, count) in self.plan.tier.looks().iter().enumerate() {
-            let jobs: Vec<Job> = open
-                .iter()
-                .flat_map(|question| self.jobs(question, *count))
-                .filter(|job| !job.picture(&self.folder).is_file())
-                .collect();
-            begin(look, jobs.len());
-            let place = Place {
-                folder: &self.folder,
-                mode: self.plan.mode,
-            };
-            for (job, outcome) in runner.run(driver, &jobs, place) {
+            let name = format!("look {}", look + 1);
+            let ended =
+                self.render(driver, runner, (&name, &begin), &open, |suite, question| {
+                    suite.jobs(question, *count)
+                })?;
+            for (job, outcome) in ended {
                 let verdict = match outcome {
                     Outcome::Rendered => continue,
                     Outcome::Unsupported(why) => Verdict::NotSupported(why),
@@ -169,10 +166,63 @@ impl Suite {
             }
             open.retain(|question| matches!(self.finding(question).verdict, Verdict::Undecided(_)));
         }
-        let refusals = serde_json::to_string_pretty(&self.refusals).expect("words");
-        // Without this file the questions are undecided when they are judged again.
-        let _ = fs::write(self.folder.join(REFUSALS), refusals);
-        self.judge()
+        self.folder.keep_refusals(&self.refusals);
+        let mut finer = self.questions.clone();
+        finer.retain(|question| self.plan.tier.refines(&self.finding(question).verdict));
+        // These two tell more and decide nothing: what fails is missing.
+        self.render(
+            driver,
+            runner,
+            ("more samples", &begin),
+            &finer,
+            Self::finer_jobs,
+        )?;
+        let noisy: Vec<_> = self.cheapest_with_noise().into_iter().collect();
+        self.render(
+            driver,
+            runner,
+            ("a seed again", &begin),
+            &noisy,
+            |suite, question| vec![suite.again(question)],
+        )?;
+        Ok(self.judge())
+    }
+
+    /// Renders what is missing of these questions; what became of it.
+    fn render(
+        &self,
+        driver: &Driver,
+        runner: &Runner<'_>,
+        (name, begin): (&str, &impl Fn(&str, usize)),
+        questions: &[&'static Question],
+        jobs: impl Fn(&Self, &Question) -> Vec<Job>,
+    ) -> Result<Vec<(Job, Outcome)>, String> {
+        let mut missing = Vec::new();
+        for question in questions {
+            let mut of_question = jobs(self, question);
+            of_question.retain(|job| !job.picture(self.folder.path()).is_file());
+            self.write_scenes(question, &of_question)?;
+            missing.extend(of_question);
+        }
+        begin(name, missing.len());
+        let place = Place {
+            folder: self.folder.path(),
+            mode: self.plan.mode,
+        };
+        Ok(runner.run(driver, &missing, place))
+    }
+
+    /// The question of the fewest samples whose pictures have noise, if seeds are to make any.
+    fn cheapest_with_noise(&self) -> Option<&'static Question> {
+        let noisy = |question: &&&'static Question| {
+            let replicates = self.replicates(question, self.jobs(question, 4));
+            replicates.is_ok_and(|(_, pictures)| copies::are_noisy(&pictures))
+        };
+        let questions = self.questions.iter().filter(|_| !self.plan.pose_each);
+        questions
+            .filter(noisy)
+            .min_by_key(|question| question.samples)
+            .copied()
     }
 
     /// What the pictures of the folder say, whoever rendered them.
@@ -183,18 +233,37 @@ impl Suite {
         });
         Report {
             version: crate::report::VERSION,
-            plan: self.plan.clone(),
-            bound: self.rules().bound,
             rows: rows.collect(),
+            seed_repeats: self.seed_repeats(),
+            plan: self.plan.clone(),
         }
     }
 
-    fn rules(&self) -> Rules {
+    /// Whether a seed gave the same picture twice, if one was rendered twice.
+    fn seed_repeats(&self) -> Option<bool> {
+        self.questions.iter().find_map(|question| {
+            let twice = vec![self.job(question, 0), self.again(question)];
+            let (_, pictures) = self.replicates(question, twice).ok()?;
+            let [a, b] = &pictures[..] else { return None };
+            Some(a.is_copy_of(b))
+        })
+    }
+
+    fn rules(&self, question: &Question) -> Rules {
+        let looks = self.plan.tier.looks().len() as u32;
+        let (scene, truth) = (question.ask)();
+        let found_by_chance = match self.plan.samples_lights {
+            true => 0.0,
+            false => scene.brightest_emission(),
+        };
+        let brightest = (BRIGHTEST * truth.brightest()).max(found_by_chance);
         Rules {
-            darkness: self.plan.samples_lights,
+            bound: self.plan.bound,
             ..Rules::new(
                 self.plan.questions.len(),
-                self.plan.tier.looks().len() as u32,
+                looks,
+                question.samples,
+                brightest,
             )
         }
     }
@@ -204,33 +273,41 @@ impl Suite {
         if let Some(verdict) = self.refusals.get(question.name) {
             return Finding::of(verdict.clone());
         }
-        let (_, truth) = (question.ask)();
-        match self.replicates(question, truth.pixels) {
-            Ok(replicates) => judge(&truth, &replicates, &self.rules()),
-            Err(error) => Finding::of(Verdict::Broken(error)),
+        let most = self.plan.tier.most();
+        let (truth, replicates) = match self.replicates(question, self.jobs(question, most)) {
+            Ok(answers) => answers,
+            Err(error) => return Finding::of(Verdict::Broken(error)),
+        };
+        let mut finding = judge(&truth, &replicates, &self.rules(question));
+        if let Ok((_, finer)) = self.replicates(question, self.finer_jobs(question)) {
+            let biases = |pictures: &[Replicate]| -> Vec<f64> {
+                pictures
+                    .iter()
+                    .map(|picture| picture.mean() / truth.mean() - 1.0)
+                    .collect()
+            };
+            finding.refinement = Refinement::of(&biases(&replicates), &biases(&finer));
         }
+        finding
     }
 
-    /// The pictures of a question that there are.
-    fn replicates(&self, question: &Question, pixels: u32) -> Result<Vec<Replicate>, String> {
-        let mut replicates = Vec::new();
-        for job in self.jobs(question, self.plan.tier.most()) {
-            let path = job.picture(&self.folder);
-            if path.is_file() {
-                let replicate = Replicate::read(&path, pixels, job.pose, job.seed)
-                    .map_err(|error| format!("seed {}: {error}", job.seed))?;
-                replicates.push(replicate);
-            }
-        }
-        Ok(replicates)
+    /// The truth of a question, and the pictures of jobs that there are.
+    fn replicates(
+        &self,
+        question: &Question,
+        jobs: Vec<Job>,
+    ) -> Result<(crate::truth::Picture, Vec<Replicate>), String> {
+        let (_, truth) = (question.ask)();
+        let replicates = self.folder.replicates(&jobs, truth.pixels)?;
+        Ok((truth, replicates))
     }
 
     /// A report of this run with the means of the folder's pictures, for [`crate::page::page`]. Questions without pictures, or
     /// with one that cannot be read, are shown without.
     pub fn run_for_page<'a>(&self, report: &'a Report) -> Run<'a> {
         let mean = |question: &&'static Question| {
-            let (_, truth) = (question.ask)();
-            let replicates = self.replicates(question, truth.pixels).ok()?;
+            let jobs = self.jobs(question, self.plan.tier.most());
+            let (truth, replicates) = self.replicates(question, jobs).ok()?;
             let mean = replicate::mean(&replicates, truth.pixels)?;
             Some((question.name.to_owned(), mean))
         };
@@ -239,17 +316,4 @@ impl Suite {
             means: self.questions.iter().filter_map(mean).collect(),
         }
     }
-}
-
-fn at(path: &Path, error: &dyn std::fmt::Display) -> String {
-    format!("{}: {error}", path.display())
-}
-
-/// The file with what is known of questions without pictures.
-const REFUSALS: &str = "refusals.json";
-
-/// Those of an earlier run, if there was one.
-fn read_refusals(file: &Path) -> BTreeMap<String, Verdict> {
-    let text = fs::read_to_string(file).unwrap_or_default();
-    serde_json::from_str(&text).unwrap_or_default()
 }

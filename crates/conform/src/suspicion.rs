@@ -1,7 +1,10 @@
 //! What a difference looks like: most first alarms are a driver's, and have a factor or a turn that betrays them.
 
+use crate::judge::RESAMPLING;
 use crate::replicate::{self, Replicate};
 use crate::truth::Picture;
+use etalon_statistics::judgement::{self, Symmetry};
+use etalon_statistics::tails::Limits;
 use std::f64::consts::PI;
 
 /// Factors that units bring about, with what they are.
@@ -21,6 +24,9 @@ const FACTORS: [(f64, &str); 9] = [
 const NEAR: f64 = 0.003;
 const NEAR_CHANGE: f64 = 0.3;
 
+/// A turned picture is like what is found if the squares of its differences are this small a part of those of the straight one.
+const LIKE: f64 = 0.05;
+
 /// The pixel of the truth that is seen at a column and a row, with the last of either before them.
 type Turn = fn(i64, i64, i64) -> [i64; 2];
 
@@ -36,13 +42,16 @@ pub(crate) fn of(truth: &Picture, replicates: &[Replicate]) -> Option<String> {
     let last = side - 1;
     // How far the truth is, taken from other pixels.
     let distance = |from: Turn| {
+        // Pixels at the edge, which may come from outside, are left out of all.
+        let inner = (0..found.len()).filter(|index| {
+            let place = [index % width, index / width];
+            place.iter().all(|n| (1..width - 1).contains(n))
+        });
         let square = |index: usize| {
             let [x, y] = from(last, (index % width) as i64, (index / width) as i64);
-            let inside = (0..side).contains(&x) && (0..side).contains(&y);
-            let known = inside.then(|| truth.means[(y * side + x) as usize]);
-            known.map_or(0.0, |known| (found[index] - ratio * known).powi(2))
+            (found[index] - ratio * truth.means[(y * side + x) as usize]).powi(2)
         };
-        (0..found.len()).map(square).sum::<f64>()
+        inner.map(square).sum::<f64>()
     };
     let turns: [(&str, Turn); 8] = [
         ("the picture upside down", |last, x, y| [x, last - y]),
@@ -62,7 +71,7 @@ pub(crate) fn of(truth: &Picture, replicates: &[Replicate]) -> Option<String> {
     let turned = turns
         .iter()
         .map(|(name, from)| (distance(*from), *name))
-        .filter(|(distance, _)| *distance < 0.1 * straight)
+        .filter(|(distance, _)| *distance < LIKE * straight)
         .min_by(|(a, _), (b, _)| a.total_cmp(b))
         .map(|(_, name)| name.to_owned());
     let factor = FACTORS
@@ -72,4 +81,24 @@ pub(crate) fn of(truth: &Picture, replicates: &[Replicate]) -> Option<String> {
         })
         .map(|(_, what)| format!("a factor of {what}"));
     turned.or(factor)
+}
+
+/// Whether the first two poses are shown to differ, as no seed makes them; of each picture its pose, and its mean over the truth's.
+pub(crate) fn poses_differ(replicates: &[(u32, f64)], level: f64) -> Option<String> {
+    let of = |pose: u32| -> Vec<f64> {
+        let own = replicates.iter().filter(|(other, _)| *other == pose);
+        own.map(|(_, ratio)| ratio - 1.0).collect()
+    };
+    let [a, b] = [of(0), of(1)];
+    let (unknown, limits) = (Symmetry::Unknown, &Limits::DECLARED);
+    let judged = judgement::judge_difference(&a, &b, level, unknown, limits, &RESAMPLING)?;
+    let (interval, _) = judged.interval?;
+    let mean = |sample: &[f64]| 100.0 * sample.iter().sum::<f64>() / sample.len() as f64;
+    (!interval.contains(0.0)).then(|| {
+        format!(
+            "its poses differ, {:+.2} % and {:+.2} %: rounding, or something that depends on direction or size",
+            mean(&a),
+            mean(&b)
+        )
+    })
 }

@@ -56,6 +56,11 @@ impl Picture {
         }
     }
 
+    /// The brightest pixel.
+    pub fn brightest(&self) -> f64 {
+        self.means.iter().copied().fold(0.0, f64::max)
+    }
+
     /// The mean of all pixels.
     pub fn mean(&self) -> f64 {
         self.means.iter().sum::<f64>() / self.means.len() as f64

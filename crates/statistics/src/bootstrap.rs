@@ -24,7 +24,7 @@ pub struct Resampling {
 impl Resampling {
     /// For independent numbers.
     #[must_use]
-    pub fn independent(resamples: u32, seed: u64) -> Self {
+    pub const fn independent(resamples: u32, seed: u64) -> Self {
         Self { resamples, seed }
     }
 

@@ -6,6 +6,7 @@
 
 use crate::normal;
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use std::cell::RefCell;
 
 /// Above this many degrees of freedom the normal distribution takes over.
 const NORMAL: f64 = 1e6;
@@ -50,6 +51,32 @@ pub fn upper_quantile(tail: f64, degrees_of_freedom: f64) -> f64 {
     if tail == 0.0 {
         return f64::INFINITY;
     }
+    remembered(tail, degrees_of_freedom)
+}
+
+/// How many quantiles a thread remembers.
+const REMEMBERED: usize = 16;
+
+/// [`solve`], or what it said before: of many samples of one size the same few quantiles are asked for.
+fn remembered(tail: f64, degrees_of_freedom: f64) -> f64 {
+    thread_local! {
+        /// Tail, degrees of freedom and quantile, and the place of the next.
+        static KNOWN: RefCell<(usize, [[f64; 3]; REMEMBERED])> = const { RefCell::new((0, [[f64::NAN; 3]; REMEMBERED])) };
+    }
+    KNOWN.with_borrow_mut(|(next, known)| {
+        let asked = |[of, at, _]: &&[f64; 3]| *of == tail && *at == degrees_of_freedom;
+        if let Some([.., quantile]) = known.iter().find(asked) {
+            return *quantile;
+        }
+        let quantile = solve(tail, degrees_of_freedom);
+        known[*next] = [tail, degrees_of_freedom, quantile];
+        *next = (*next + 1) % REMEMBERED;
+        quantile
+    })
+}
+
+/// The quantile of a tail in (0, ½).
+fn solve(tail: f64, degrees_of_freedom: f64) -> f64 {
     // The t distribution has the heavier tail, so the normal quantile is a lower bound.
     let mut low = normal::upper_quantile(tail);
     let mut high = 2.0 * low.max(0.5);

@@ -65,13 +65,21 @@ Examples:
 /// What is asked, and how much.
 #[derive(Debug, Args)]
 pub struct AskedArgs {
-    /// How much is rendered: `quick` asks the questions of few samples, with 16 pictures of each; `standard` all, with 32, and four
-    /// times as many of what is undecided.
+    /// How much is rendered: `quick` asks the questions of few samples, with 16 pictures of each; `standard` all, with 32, four times
+    /// as many of what is undecided, and some of four times the samples of what does not agree; `full` these of everything.
     #[arg(long, value_name = "TIER", default_value = "standard")]
     pub tier: Tier,
-    /// Only questions whose names fit; `*` stands for anything.
-    #[arg(long, value_name = "GLOB", default_value = "*")]
-    pub only: String,
+    /// Only questions whose names fit; `*` stands for anything, and commas stand between several.
+    #[arg(
+        long,
+        value_name = "GLOB,…",
+        value_delimiter = ',',
+        default_value = "*"
+    )]
+    pub only: Vec<String>,
+    /// Ask for agreement within 0.1 %, in place of 0.5 %; much will be undecided.
+    #[arg(long)]
+    pub strict: bool,
     /// The seed of all poses.
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub pose_seed: u64,
@@ -89,7 +97,7 @@ pub struct ConformRunArgs {
     /// What is asked.
     #[command(flatten)]
     pub asked: AskedArgs,
-    /// Ask part I of N of the questions; the error rates are those of all.
+    /// Ask part I of N of the questions, at the error rates of all; `judge` puts parts in one folder together.
     #[arg(long, value_name = "I/N")]
     pub part: Option<PartOfMany>,
     /// The folder for scenes, pictures and the report [default: conform-NAME, in this folder].

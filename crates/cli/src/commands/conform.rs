@@ -5,10 +5,11 @@ use crate::args::{AskedArgs, ConformArgs, ConformCommand, ConformExportArgs, Con
 use crate::interrupt;
 use etalon_conform::driver::{Driver, Programs};
 use etalon_conform::page::{Run, page};
-use etalon_conform::plan::Plan;
+use etalon_conform::plan::{Plan, STRICT_BOUND};
 use etalon_conform::report::{self, Report};
 use etalon_conform::runner::{Outcome, Runner};
 use etalon_conform::suite::Suite;
+use etalon_conform::tile::{self, TILES};
 use etalon_conform::{drivers, questions};
 use etalon_render::write_guard::{Destination, WriteGuard};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -61,11 +62,9 @@ fn truth(name: &str) -> Result<String, String> {
         question.source,
         picture.mean()
     );
-    for row in 0..etalon_conform::judge::TILES {
-        let mean = |column| {
-            etalon_conform::judge::tile_mean(&picture.means, picture.pixels, [column, row])
-        };
-        let row = (0..etalon_conform::judge::TILES).map(|column| format!("{:>12.6}", mean(column)));
+    for row in 0..TILES {
+        let mean = |column| tile::mean(&picture.means, picture.pixels, [column, row]);
+        let row = (0..TILES).map(|column| format!("{:>12.6}", mean(column)));
         let _ = writeln!(text, "{}", row.collect::<String>());
     }
     Ok(text)
@@ -82,12 +81,15 @@ fn unknown(name: &str) -> String {
 }
 
 fn plan(asked: &AskedArgs) -> Result<Plan, String> {
-    let fits = |name: &str| fits(&asked.only, name);
-    let plan = Plan::new(asked.pose_seed, asked.tier, asked.mode, fits);
+    let fits = |name: &str| asked.only.iter().any(|glob| fits(glob, name));
+    let mut plan = Plan::new(asked.pose_seed, asked.tier, asked.mode, fits);
+    if asked.strict {
+        plan.bound = STRICT_BOUND;
+    }
     match plan.questions.is_empty() {
         true => Err(format!(
             "no question of the tier fits `{}`: `etalon conform list` names all",
-            asked.only
+            asked.only.join(",")
         )),
         false => Ok(plan),
     }
@@ -151,11 +153,14 @@ fn ask(args: &ConformRunArgs) -> Result<ExitCode, String> {
         },
         stop: interrupt::flag(),
     };
-    let report = suite.run(&driver, &runner, |look, count| {
+    let report = suite.run(&driver, &runner, |step, count| {
         bar.set_length(count as u64);
         bar.set_position(0);
-        bar.set_prefix(format!("look {}", look + 1));
-    });
+        bar.set_prefix(step.to_owned());
+        if bar.is_hidden() && !args.quiet && count > 0 {
+            note(format!("{step}: {count} pictures"));
+        }
+    })?;
     bar.finish_and_clear();
     if interrupt::asked() {
         note("stopped; the same command goes on from here");
@@ -190,7 +195,7 @@ fn progress(quiet: bool) -> ProgressBar {
 
 fn export(args: &ConformExportArgs) -> Result<ExitCode, String> {
     let suite = Suite::create(&args.to, plan(&args.asked)?)?;
-    let jobs = suite.first_look();
+    let jobs = suite.first_look()?;
     let mut lines = String::new();
     for job in &jobs {
         let scene = format!("scenes/{}", job.scene_name());

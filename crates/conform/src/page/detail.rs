@@ -2,10 +2,11 @@
 
 use super::{Asked, Program, anchor, dots, mark, matrix, number, pictures};
 use crate::drivers;
-use crate::judge::{Finding, TILE_BOUND, TILES, Verdict};
+use crate::judge::{Finding, Verdict};
 use crate::mode::Mode;
-use crate::plan::Plan;
+use crate::plan::{BOUND, Plan};
 use crate::tier::Tier;
+use crate::tile::{self, TILES};
 use etalon_render::report::signed;
 use maud::{Markup, html};
 
@@ -44,7 +45,7 @@ pub(super) fn detail(asked: &Asked, programs: &[Program<'_>]) -> Markup {
                         @if let (Some(truth), Some(mean)) = (&truth, program.run.means.get(&asked.name)) {
                             (pictures::pictures(truth, mean, finding.replicates.len(), &program.name))
                         }
-                        (dots::dots(finding, program.run.report.bound, &program.name))
+                        (dots::dots(finding, program.run.report.plan.bound, &program.name))
                         (again(&program.run.report.plan, &asked.name))
                     }
                 }
@@ -56,7 +57,7 @@ pub(super) fn detail(asked: &Asked, programs: &[Program<'_>]) -> Markup {
 fn numbers(finding: &Finding) -> Markup {
     let tile_bound = format!(
         "a tile may be off by {} % of its mean and δ of the picture's",
-        100.0 * TILE_BOUND
+        100.0 * tile::BOUND
     );
     html! {
         dl class="facts" {
@@ -71,6 +72,11 @@ fn numbers(finding: &Finding) -> Markup {
             @if let Some((column, row, times)) = finding.tile {
                 dt { "Worst tile" } dd { "column " (column) ", row " (row) " of " (TILES) " × " (TILES) ", from 0 at the top left: "
                     (format!("{times:+.2}")) " times its bound (" (tile_bound) ")" }
+            }
+            @if let Some(finer) = &finding.refinement {
+                dt { "With 4 × the samples" } dd { (signed(finer.bias))
+                    @if let Some([low, high]) = finer.interval { " in [" (signed(low)) ", " (signed(high)) "]" }
+                    @if let Some(trend) = finer.trend { ": " (trend.words()) } }
             }
             @if let Some(suspicion) = &finding.suspicion {
                 dt { "Looks like" } dd { strong { (suspicion) } }
@@ -115,6 +121,9 @@ fn command(plan: &Plan, question: &str, built_in: bool) -> String {
         if value != usual {
             command += &format!(" {option} {}", quoted(value));
         }
+    }
+    if plan.bound != BOUND {
+        command += " --strict";
     }
     // The folder of the whole run holds another plan, and would be refused.
     let option = match &plan.program[..] {

@@ -47,7 +47,7 @@ pub(super) fn matrix(programs: &[Program<'_>], asked: &[Asked]) -> Markup {
                                 a href={ "#" (anchor(&asked.name)) } { (asked.name) }
                                 @if let Some(question) = asked.question { span class="under" { (question.title) } }
                             }
-                            @for program in programs { (cell(program.finding(&asked.name), program.run.report.bound)) }
+                            @for program in programs { (cell(program.finding(&asked.name), program.run.report.plan.bound)) }
                         }
                     }
                 }

@@ -41,9 +41,12 @@ fn one(program: &Program<'_>, among_others: bool) -> Markup {
                 dt { "Version" } dd { @if plan.program_version.is_empty() { "not told" } @else { (plan.program_version) } }
                 dt { "Asked" } dd { (report.rows.len()) " questions, tier " code { (plan.tier.name()) }
                     ", mode " code { (plan.mode.name()) } " (" (mode(plan.mode)) ")" }
-                dt { "Bound" } dd { "δ = " (100.0 * report.bound) " %" }
+                dt { "Bound" } dd { "δ = " (100.0 * plan.bound) " %" }
                 dt { "Seed of poses" } dd { (plan.suite_seed)
                     @if plan.pose_each { ", every picture in a pose of its own" } }
+                @if let Some(repeats) = report.seed_repeats {
+                    dt { "The same seed again" } dd { @if repeats { "gave the same bits" } @else { strong { "gave another picture" } } }
+                }
                 dt { "Page made by" } dd { "Etalon " (etalon_render::VERSION) }
             }
             @if !plan.conventions.is_empty() {

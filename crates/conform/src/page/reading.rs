@@ -1,14 +1,15 @@
 //! How to read the page, and what to look at first where a program differs.
 
 use super::{Program, mark};
-use crate::judge::{Rules, TILES};
+use crate::judge::{BRIGHTEST, Rules};
+use crate::tile::TILES;
 use maud::{Markup, html};
 
 /// What verdicts, δ and error rates mean.
 pub(super) fn legend(programs: &[Program<'_>]) -> Markup {
-    let rules = Rules::new(0, 0);
+    let rules = Rules::new(0, 0, 0, 0.0);
     let mut bounds: Vec<String> = (programs.iter())
-        .map(|program| format!("{} %", 100.0 * program.run.report.bound))
+        .map(|program| format!("{} %", 100.0 * program.run.report.plan.bound))
         .collect();
     bounds.dedup();
     let bound = bounds.join(", ");
@@ -31,7 +32,10 @@ pub(super) fn legend(programs: &[Program<'_>]) -> Markup {
                 dt { "Level of the run" } dd { "The intervals that decide are wider, so that they hold for all questions together: the probability that any of "
                     "them misses in a run is 1 in " (format!("{:.0}", 1.0 / rules.miss)) ", and that a sound program is accused of anything 1 in "
                     (format!("{:.0}", 1.0 / rules.alarm)) "." }
-                dt { "Too dark" } dd { "This is not said where one picture carries most of the light: the next rare flash may be to come." }
+                dt { "Too dark" } dd { "A rare bright sample may be to come. So this is said only where what is missing would have come by now in samples of at most "
+                    (BRIGHTEST) " times the brightest pixel, or of a light's radiance for a program that finds lights by chance." }
+                dt { "4 × the samples" } dd { "A wrong formula stays wrong with more samples; what a sound but biased method adds falls. "
+                    "This tells, and decides nothing." }
                 dt { "Exit codes" } dd { "0 agrees in all that it can express, 1 differs, 2 something is broken, 3 something is undecided." }
             }
         }
@@ -49,6 +53,8 @@ pub(super) fn checklist(open: bool) -> Markup {
                 li { strong { "Units first. " } "Do " @for (index, name) in calibration.iter().enumerate() {
                         @if index > 0 { ", " } code { (name) }
                     } " agree? If one differs, a unit is wrong: nothing else can be read before that." }
+                li { strong { "The film next. " } "Does " code { "registration" } " agree? A film that is off by a pixel shifts every picture, and many questions differ a "
+                    "little for that one reason." }
                 li { strong { "One pose, or all? " } "See the dots of a question. A difference in one pose only has to do with orientation, handedness, size or "
                     "position: see first how the driver turns cameras and objects." }
                 li { strong { "Does it grow or shrink with samples? " } "What vanishes with more samples is a bias that the program may have. What stays, and is "

@@ -63,8 +63,15 @@ pub(super) const BRIGHT_ROOM: Question = Question {
 pub(super) const CUBE_ROOM: Question = Question {
     name: "glowing-cube",
     title: "Inside a glowing cube of six squares",
-    ask: cube_room,
+    ask: || cube_room(0.5),
     ..DARK_ROOM
+};
+
+pub(super) const BRIGHT_CUBE_ROOM: Question = Question {
+    name: "glowing-cube-0.8",
+    title: "The same, and the squares reflect 0.8",
+    ask: || cube_room(0.8),
+    ..CUBE_ROOM
 };
 
 pub(super) const POINT_IN_SPHERE: Question = Question {
@@ -114,12 +121,12 @@ fn round_room(reflectance: f64) -> (Scene, Picture) {
     (scene, Picture::even(PIXELS, closed(1.0, reflectance)))
 }
 
-fn cube_room() -> (Scene, Picture) {
+fn cube_room(reflectance: f64) -> (Scene, Picture) {
     let mut scene = scene(inside([0.1, -0.2, 0.05]));
     for (_, _, square) in cube() {
-        scene = scene.glowing(square, GREY, 1.0);
+        scene = scene.glowing(square, Material::Diffuse { reflectance }, 1.0);
     }
-    (scene, Picture::even(PIXELS, closed(1.0, 0.5)))
+    (scene, Picture::even(PIXELS, closed(1.0, reflectance)))
 }
 
 fn point_in_sphere() -> (Scene, Picture) {

@@ -6,6 +6,7 @@ use etalon_conform::driver::{Driver, Programs};
 use etalon_conform::judge::Verdict;
 use etalon_conform::mode::Mode;
 use etalon_conform::plan::Plan;
+use etalon_conform::refinement::Trend;
 use etalon_conform::report::Report;
 use etalon_conform::runner::Runner;
 use etalon_conform::suite::Suite;
@@ -46,7 +47,7 @@ fn run(folder: &Path, driver: &Driver) -> Result<Report, String> {
         done: &|_, _| {},
         stop: &AtomicBool::new(false),
     };
-    Ok(suite.run(driver, &runner, |_, _| {}))
+    suite.run(driver, &runner, |_, _| {})
 }
 
 #[test]
@@ -116,16 +117,55 @@ fn drivers_are_read_with_care() {
     assert!(refused("").contains("command"));
     assert!(refused("command = []\n").contains("no words"));
     assert!(refused("command = [\"x\"]\nspeed = 3\n").contains("speed"));
-    let asks = driver(folder.path(), "", "command = [\"{nothing}\"]\n").expect("a driver");
-    let report = run(folder.path(), &asks).expect("a run");
-    let Verdict::Broken(how) = &report.rows[0].finding.verdict else {
-        panic!("{report:?}");
-    };
+    let how = refused("command = [\"{nothing}\"]\n");
     assert!(
         how.contains("`{nothing}`") && how.contains("scene"),
         "{how}"
     );
     assert!(
         Driver::named("nobody", folder.path(), &programs()).is_err_and(|e| e.contains("etalon"))
+    );
+}
+
+/// Writes a picture that is 1/128 to 1/64 too bright: by a number, of which each below 2¹⁶ gives another picture.
+fn too_bright_by(number: &str) -> String {
+    format!(
+        r#"n=$(( {number} * 7919 )); b=$(printf '\\%03o\\%03o\\%03o\\077' $((n / 256 % 256)) $((n % 256)) 129)
+b="$b$b$b$b"; b="$b$b$b$b"; b="$b$b$b$b"; {{ printf 'Pf\n16 16\n-1.0\n'; printf "$b$b$b$b"; }} > "$1"
+"#
+    )
+}
+
+/// Of what differs eight pictures with four times the samples are made, which have the same error, and one picture again.
+#[test]
+fn more_samples_and_a_seed_again_are_told() {
+    let report = |number: &str| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let driver = driver(folder.path(), &too_bright_by(number), COMMAND).expect("a driver");
+        let plan = Plan::new(1, Tier::Standard, Mode::Measure, |name| name == "wall");
+        let plan = plan.of(&driver, "7".to_owned());
+        let mut suite = Suite::create(&folder.path().join("run"), plan).expect("a run");
+        let runner = Runner {
+            workers: 2,
+            limit: Duration::from_secs(20),
+            done: &|_, _| {},
+            stop: &AtomicBool::new(false),
+        };
+        suite.run(&driver, &runner, |_, _| {}).expect("a report")
+    };
+    let repeats = report("$2");
+    let finding = &repeats.rows[0].finding;
+    assert_eq!(finding.verdict, Verdict::Differs, "{finding:?}");
+    let refinement = finding.refinement.as_ref().expect("more samples");
+    assert_eq!(refinement.trend, Some(Trend::Constant), "{refinement:?}");
+    assert!(repeats.table().contains("the error stays the same"));
+    assert_eq!(repeats.seed_repeats, Some(true));
+    // What depends on the process is another one each time.
+    let other = report("$$");
+    assert_eq!(other.seed_repeats, Some(false));
+    assert!(
+        other.table().contains("cannot be repeated"),
+        "{}",
+        other.table()
     );
 }

@@ -2,7 +2,7 @@
 
 use crate::camera;
 use crate::geometry::{Ray, nearest};
-use etalon_conform::scene::{Material, Medium, Scene, Sky};
+use etalon_conform::scene::{Interpolation, Material, Medium, Scene, Sky};
 use etalon_math::float64::{asin, cos, ln, sin, sin_cos, tan};
 use glam::{DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
@@ -38,6 +38,7 @@ pub(crate) fn sky(scene: &Scene, direction: DVec3) -> f64 {
         None => 0.0,
         Some(Sky::Even { radiance }) => *radiance,
         Some(Sky::Map {
+            interpolation,
             zenith,
             meridian,
             rows,
@@ -48,9 +49,21 @@ pub(crate) fn sky(scene: &Scene, direction: DVec3) -> f64 {
             let level = DVec2::new(direction.dot(first), direction.dot(up.cross(first)));
             let polar = etalon_math::float64::acos(direction.dot(up).clamp(-1.0, 1.0));
             let azimuth = etalon_math::float64::atan2(level.y, level.x).rem_euclid(TAU);
-            let cell = |part: f64, n: u32| ((part * f64::from(n)) as u32).min(n - 1);
-            let (row, column) = (cell(polar / PI, *rows), cell(azimuth / TAU, *columns));
-            radiance[(row * columns + column) as usize]
+            let at = |row: f64, column: f64| {
+                let row = row.clamp(0.0, f64::from(rows - 1)) as u32;
+                let column = column.rem_euclid(f64::from(*columns)) as u32;
+                radiance[(row * columns + column) as usize]
+            };
+            let (down, across) = (polar / PI, azimuth / TAU * f64::from(*columns));
+            let (row, column) = match interpolation {
+                Interpolation::None => return at(down * f64::from(*rows), across),
+                Interpolation::Linear => (down * f64::from(*rows) - 0.5, across - 0.5),
+                Interpolation::RowsToPoles => (down * f64::from(rows - 1), across - 0.5),
+            };
+            let (i, j) = (row.floor(), column.floor());
+            let mix = |a: f64, b: f64, part: f64| a + part * (b - a);
+            let of_row = |i: f64| mix(at(i, j), at(i, j + 1.0), column - j);
+            mix(of_row(i), of_row(i + 1.0), row - i)
         }
     }
 }
