@@ -1,8 +1,8 @@
 //! `cargo xtask calibrate-conform`: shows on simulated sound programs that `etalon conform` accuses as rarely as it says.
 
-use etalon_conform::judge::Rules;
 use etalon_conform::null_programs::{Answers, Noise, NullProgram};
 use etalon_conform::questions;
+use etalon_conform::rules::Rules;
 use etalon_conform::tier::Tier;
 use etalon_statistics::proportion;
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ const LEVELS: [f64; 2] = [1e-2, 1e-3];
 #[command(
     after_help = "Exit code: 0 if every promise is kept, 1 if one is not.\n\nExamples:\n  cargo xtask calibrate-conform\n  cargo xtask calibrate-conform --programs 1000000    # a quarter of an hour"
 )]
-pub(crate) struct Arguments {
+pub(crate) struct CalibrateConformArguments {
     /// Simulated programs
     #[arg(long, default_value_t = 10_000)]
     programs: u32,
@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
 }
 
 /// Runs the calibration.
-pub(crate) fn run(arguments: &Arguments) -> ExitCode {
+pub(crate) fn run(arguments: &CalibrateConformArguments) -> ExitCode {
     let runs = whole_runs(arguments);
     let rules = rules();
     let mut kept = true;
@@ -113,7 +113,7 @@ fn rules() -> Rules {
 }
 
 /// All questions of the standard tier to programs of all kinds, a third of each right in its means, a third at either end of the bound.
-fn whole_runs(arguments: &Arguments) -> Vec<(NullProgram, Answers)> {
+fn whole_runs(arguments: &CalibrateConformArguments) -> Vec<(NullProgram, Answers)> {
     let kinds = Noise::ALL.len();
     let program = |index: u32| {
         let index = index as usize;

@@ -47,7 +47,7 @@ enum Task {
     /// Show that the validation's error rates are what they are said to be
     Calibrate(calibrate::Arguments),
     /// Show on simulated programs that `etalon conform` accuses as rarely as it says
-    CalibrateConform(calibrate_conform::Arguments),
+    CalibrateConform(calibrate_conform::CalibrateConformArguments),
     /// Measure by how much estimators are better than others (`benches/efficiency.toml`)
     Efficiency(efficiency::Arguments),
     /// Measure noise, time and efficiency on a list of scenes, beside Mitsuba 3's (`benches/speed.toml`)

@@ -36,4 +36,6 @@ drivers! {
     "cycles" "cycles.toml" "cycles.py" "protocol.py",
     "luxcore" "luxcore.toml" "luxcore.py" "protocol.py",
     "povray" "povray.toml" "povray.py" "protocol.py",
+    "radiance" "radiance.toml" "radiance.py" "protocol.py",
+    "raysect" "raysect.toml" "raysect.py" "protocol.py",
 }

@@ -22,6 +22,7 @@ pub mod questions;
 pub mod refinement;
 pub mod replicate;
 pub mod report;
+pub mod rules;
 pub mod runner;
 pub mod scene;
 pub mod suite;

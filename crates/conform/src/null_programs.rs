@@ -5,8 +5,9 @@
 //! even, common to all tiles, skewed, flashes, rare flashes, or a tail without variance. Programs of the last two kinds find lights
 //! by chance, and say so.
 
-use crate::judge::{self, BRIGHTEST, Rules, Verdict};
+use crate::judge::{self, Verdict};
 use crate::replicate::Replicate;
+use crate::rules::{BRIGHTEST, Rules};
 use crate::tile::TILES;
 use crate::truth::Picture;
 use etalon_math::float64::{ln, pow};

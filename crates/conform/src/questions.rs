@@ -61,6 +61,7 @@ pub const ALL: &[Question] = &[
     mirrors::MIRROR,
     mirrors::CONDUCTOR,
     mirrors::CONDUCTOR_GRAZING,
+    mirrors::CONDUCTOR_WEAK,
     mirrors::CORRIDOR,
     mirrors::ROOM,
     media::ABSORBER,

@@ -3,7 +3,7 @@
 /// Tiles along a side of a picture.
 pub const TILES: u32 = 4;
 
-/// The relative difference of a tile beyond which a program differs, unless [`crate::judge::Rules`] say otherwise.
+/// The relative difference of a tile beyond which a program differs, unless [`crate::rules::Rules`] say otherwise.
 pub const BOUND: f64 = 0.03;
 
 /// The mean of a tile of a picture.

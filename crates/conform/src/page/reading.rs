@@ -1,7 +1,7 @@
 //! How to read the page, and what to look at first where a program differs.
 
 use super::{Program, mark};
-use crate::judge::{BRIGHTEST, Rules};
+use crate::rules::{BRIGHTEST, Rules};
 use crate::tile::TILES;
 use maud::{Markup, html};
 

@@ -25,14 +25,22 @@ pub(super) const CONDUCTOR: Question = Question {
     title: "A wall in a metal at 45 degrees",
     formula: "½ (R_s + R_p) L of the index 0.2 + 3i",
     source: "Born and Wolf, Principles of Optics, 1959, section 13.2",
-    ask: || metal(45.0),
+    ask: || metal(45.0, 0.2, 3.0),
     ..MIRROR
 };
 
 pub(super) const CONDUCTOR_GRAZING: Question = Question {
     name: "conductor-75",
     title: "A wall in a metal at 75 degrees",
-    ask: || metal(75.0),
+    ask: || metal(75.0, 0.2, 3.0),
+    ..CONDUCTOR
+};
+
+pub(super) const CONDUCTOR_WEAK: Question = Question {
+    name: "conductor-weak",
+    title: "A wall in a metal that absorbs little, at 57 degrees: common approximations are off by a tenth",
+    formula: "½ (R_s + R_p) L of the index 1.1 + 0.5i",
+    ask: || metal(57.0, 1.1, 0.5),
     ..CONDUCTOR
 };
 
@@ -55,8 +63,7 @@ pub(super) const ROOM: Question = Question {
     ..MIRROR
 };
 
-fn metal(degrees: f64) -> (Scene, Picture) {
-    let (n, k) = (0.2, 3.0);
+fn metal(degrees: f64, n: f64, k: f64) -> (Scene, Picture) {
     let truth = conductor(cos(degrees.to_radians()), n, k);
     wall_in(Material::Conductor { n, k }, degrees, truth)
 }

@@ -1,7 +1,8 @@
 //! The decision on simulated programs: sound ones are not accused, and faults that drivers and renderers have are found.
 
-use etalon_conform::judge::{BRIGHTEST, Finding, Rules, Verdict, judge};
+use etalon_conform::judge::{Finding, Verdict, judge};
 use etalon_conform::replicate::Replicate;
+use etalon_conform::rules::{BRIGHTEST, Rules};
 use etalon_conform::truth::Picture;
 use etalon_math::float64::pow;
 use etalon_statistics::normal::upper_quantile;

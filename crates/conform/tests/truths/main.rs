@@ -70,6 +70,7 @@ const TABLE: &[Row] = &[
     ("mirror", |s| traced(s, 1), 1e-12, 1e-12),
     ("conductor-45", |s| traced(s, 1), 1e-12, 1e-12),
     ("conductor-75", |s| traced(s, 1), 1e-12, 1e-12),
+    ("conductor-weak", |s| traced(s, 1), 1e-12, 1e-12),
     ("mirror-corridor", |s| covered(s, 1000), 1e-4, 1e-3),
     ("mirror-room", |s| traced(s, 1), 1e-7, 1e-7),
     ("absorber", |s| traced(s, 1), 1e-6, 1e-6),
