@@ -14,6 +14,9 @@ const CONFIDENCE: f64 = 0.99;
 /// Counted rates.
 const RATES: f64 = 4.0;
 
+/// Single means at most that are tested.
+const MEANS: u32 = 400_000;
+
 /// Levels at which single means are tested.
 const LEVELS: [f64; 2] = [1e-2, 1e-3];
 
@@ -75,7 +78,7 @@ pub(crate) fn run(arguments: &CalibrateConformArguments) -> ExitCode {
         "        {what}: {missed} of {trials} programs that find lights by chance; nothing is promised"
     );
     for level in LEVELS {
-        let trials = 100 * arguments.programs;
+        let trials = MEANS.min(100 * arguments.programs);
         let count = alarms_of_a_mean(level, trials, arguments.seed);
         tell(
             "single means at the bound accused",

@@ -220,8 +220,11 @@ impl<'a> Asked<'a> {
         let alarm = rules.alarm_level();
         let of_picture = interval(&biases, alarm);
         let tile = self.worst_tile(|known, sample| {
-            let [low, high] = interval(sample, alarm)?;
             let mean = sample.iter().sum::<f64>() / sample.len() as f64;
+            if mean.abs() <= 1.0 {
+                return None; // as its interval holds it
+            }
+            let [low, high] = interval(sample, alarm)?;
             // Flashes in other tiles are to be expected in this one.
             let dark = || of_picture.is_some() && self.tile_is_dark(known, high);
             (low > 1.0 || dark()).then_some(mean)
@@ -241,6 +244,9 @@ impl<'a> Asked<'a> {
             Some([_, high]) if high < -rules.bound => {
                 Verdict::Undecided(A_FEW_COULD_MAKE_UP.to_owned())
             }
+            Some([low, _]) if low > rules.bound => Verdict::Undecided(
+                "too bright so far; but not shown at the level of an accusation".to_owned(),
+            ),
             Some(interval) => Verdict::Undecided(self.what_it_would_take(interval)),
             None => Verdict::Undecided(
                 "a few pictures carry most of the light, and no test reaches the level of the run"

@@ -165,8 +165,8 @@ impl Source {
                 own.collect()
             }
             Noise::Skewed => {
-                let terms = (1.0 / (sigma * sigma)).ceil().clamp(1.0, 64.0) as u32;
-                // More than 64 are as good as normal with the skewness of 64.
+                let terms = (1.0 / (sigma * sigma)).ceil().clamp(1.0, 16.0) as u32;
+                // Of more, 16 of the same noise are taken, which are skewed more.
                 let scale = (sigma * f64::from(terms).sqrt()).min(1.0);
                 let exponential = |random: &mut Pcg64Mcg| -ln(1.0 - random.random::<f64>());
                 let sum =

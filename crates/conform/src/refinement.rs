@@ -16,6 +16,12 @@ pub const FACTOR: u32 = 4;
 /// Differences that are no more than this share of the first error do not matter.
 const SMALL: f64 = 0.05;
 
+/// The confidence with which there is an error whose trend may be asked for.
+const SEEN: f64 = 0.999;
+
+/// Relative errors below this are of single precision.
+const ROUNDING: f64 = 1e-5;
+
 /// How an error changes with the number n of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -68,7 +74,8 @@ impl Refinement {
 
 fn trend(before: &[f64], after: &[f64]) -> Option<Trend> {
     let (first, second) = (Summary::of(before)?, Summary::of(after)?);
-    if Estimate::mean(&first).interval(0.95).contains(0.0) {
+    let is_seen = !Estimate::mean(&first).interval(SEEN).contains(0.0);
+    if !is_seen || first.mean().abs() < ROUNDING {
         return None;
     }
     // The second error less this share of the first.

@@ -189,6 +189,35 @@ impl Suite {
         Ok(self.judge())
     }
 
+    /// Has a program render pictures of a question with so many samples per pixel, and reads them; nothing is judged.
+    ///
+    /// # Errors
+    /// If a picture could not be rendered or read.
+    pub fn pictures(
+        &self,
+        driver: &Driver,
+        runner: &Runner<'_>,
+        question: &'static Question,
+        samples: u32,
+        count: u32,
+    ) -> Result<Vec<Replicate>, String> {
+        let jobs = |suite: &Self, question: &Question| {
+            let mut jobs = suite.jobs(question, count);
+            jobs.iter_mut().for_each(|job| job.samples = samples);
+            jobs
+        };
+        let silent = |_: &str, _: usize| {};
+        for (_, outcome) in self.render(driver, runner, ("", &silent), &[question], jobs)? {
+            match outcome {
+                Outcome::Rendered => {}
+                Outcome::Unsupported(why) => return Err(why),
+                Outcome::Broken(how) => return Err(how),
+            }
+        }
+        let (_, pictures) = self.replicates(question, jobs(self, question))?;
+        Ok(pictures)
+    }
+
     /// Renders what is missing of these questions; what became of it.
     fn render(
         &self,

@@ -7,6 +7,7 @@
 mod baseline;
 mod cpu_time;
 mod opponent;
+mod peers;
 mod pictures;
 mod table;
 
@@ -18,6 +19,7 @@ use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderOptions};
 use etalon_sampling::SamplerKind;
 use etalon_validation::{claim, folders};
 use opponent::Opponent;
+use peers::Peer;
 use pictures::Pictures;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -33,7 +35,7 @@ const COULD_NOT_MEASURE: u8 = 2;
 /// Which scenes, and how.
 #[derive(Clone, clap::Args)]
 #[command(
-    after_help = "Exit code of --check: 0 if no ratio fell, 1 if one did, 2 if it could not be measured, 3 if Mitsuba is not\ninstalled.\n\nMitsuba takes part if an interpreter has it: the one that ETALON_PYTHON names, or target/venv, which\n`cargo xtask references` makes. Its LLVM variants need LLVM 17 or later.\n\nExamples:\n  cargo xtask speed\n  cargo xtask speed --filter gaussian --only cornell\n  cargo xtask speed ~/scenes/*.xml --seeds 32 --json speed.json\n  cargo xtask speed --check"
+    after_help = "Exit code of --check: 0 if no ratio fell, 1 if one did, 2 if it could not be measured, 3 if Mitsuba is not\ninstalled.\n\nMitsuba takes part if an interpreter has it: the one that ETALON_PYTHON names, or target/venv, which\n`cargo xtask references` makes. Its LLVM variants need LLVM 17 or later.\n\nExamples:\n  cargo xtask speed\n  cargo xtask speed --filter gaussian --only cornell\n  cargo xtask speed ~/scenes/*.xml --seeds 32 --json speed.json\n  cargo xtask speed --check\n  cargo xtask speed --peer mitsuba=target/venv/bin/python --peer cycles=python3.11"
 )]
 pub(crate) struct Arguments {
     /// Scenes to render in place of those of `benches/speed.toml`
@@ -41,6 +43,10 @@ pub(crate) struct Arguments {
     /// Hold samples per second over Mitsuba's to `benches/speed-baseline.toml`, which says how both render
     #[arg(long, conflicts_with_all = ["scenes", "spp", "seeds", "filter", "sampler", "threads", "cpu_time", "variant", "defines", "json"])]
     check: bool,
+    /// Measure other renderers instead, on scenes of `etalon conform`: the names of its drivers, each with the interpreter that has its
+    /// module
+    #[arg(long = "peer", value_name = "NAME[=PYTHON]", conflicts_with_all = ["scenes", "check", "only", "spp", "seeds", "filter", "sampler", "threads", "cpu_time", "variant", "defines", "json"])]
+    peers: Vec<Peer>,
     /// Only scenes of the list whose names contain this
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
@@ -154,6 +160,9 @@ struct SceneEntry {
 pub(crate) fn run(arguments: &Arguments) -> ExitCode {
     let done = match arguments.check {
         true => baseline::check(arguments).map(baseline::CheckOutcome::exit_code),
+        false if !arguments.peers.is_empty() => {
+            peers::compare(&arguments.peers).map(|()| ExitCode::SUCCESS)
+        }
         false => compare(arguments).map(|()| ExitCode::SUCCESS),
     };
     done.unwrap_or_else(|message| {

@@ -10,8 +10,11 @@
 //! (Lambert's cosine law, *Photometria*, 1760, integrated).
 
 //! Of a radiance that stands at one direction (θ, φ) and falls linearly to 0 at θ ± h and φ ± k, as interpolation between cells has it,
-//! it is the same with [f]′ in place of [f]: for a hat of half width h at a, and F″ = f′ the integrand,
-//! [f]′ = (F(a − h) − 2 F(a) + F(a + h))/h.
+//! it is the same with another bracket: of a hat of half width h at a, where G is the antiderivative of f,
+//!
+//! ```text
+//! [f] = (G(a − h) − 2 G(a) + G(a + h))/h
+//! ```
 
 use etalon_math::float64::{cos, sin};
 
@@ -26,7 +29,7 @@ pub fn part([nx, ny, nz]: [f64; 3], theta: [f64; 2], phi: [f64; 2]) -> f64 {
 
 /// Of a hat of radiance 1 at this direction with these half widths (rad).
 pub fn hat([nx, ny, nz]: [f64; 3], [theta, phi]: [f64; 2], [h, k]: [f64; 2]) -> f64 {
-    // Each function is the second antiderivative of an integrand.
+    // Each function is G.
     let over = |f: fn(f64) -> f64, a: f64, h: f64| (f(a - h) - 2.0 * f(a) + f(a + h)) / h;
     let upright = over(|t| 0.25 * t * t + 0.125 * cos(2.0 * t), theta, h);
     let level = nx * over(|p| -cos(p), phi, k) + ny * over(|p| -sin(p), phi, k);
