@@ -133,6 +133,9 @@ const A_FEW_COULD_MAKE_UP: &str =
 /// More pictures than this many times those that there are, are not advised.
 const MOST_TO_ADVISE: f64 = 100.0;
 
+/// So many pictures are not all near each other by chance: 16 normal numbers within a third of their deviation are as rare as 10⁻¹².
+const MANY: usize = 16;
+
 /// Pictures whose difference from the bound is this many times that among them are all beyond it.
 const FAR: f64 = 3.0;
 
@@ -256,9 +259,12 @@ impl<'a> Asked<'a> {
         decision(verdict, None)
     }
 
-    /// Noise that does not matter needs no distribution: all pictures are well within the bound, or farther beyond it than they are from
-    /// each other.
+    /// Noise that does not matter needs no distribution: of many pictures all are well within the bound, or farther beyond it than
+    /// they are from each other.
     fn of_little_noise(&self, biases: &[f64]) -> Option<Verdict> {
+        if biases.len() < MANY {
+            return None;
+        }
         let (bound, [low, high]) = (self.rules.bound, range(biases)?);
         let far = FAR * (high - low);
         let half = 0.5 * bound;

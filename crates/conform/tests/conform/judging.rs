@@ -143,6 +143,26 @@ fn darkness_needs_samples() {
     assert_eq!(with(64), Verdict::Differs);
 }
 
+/// A few pictures may be near each other by chance, and off; many may not, even if no test of their mean reaches the level.
+#[test]
+fn a_few_pictures_that_are_alike_show_little() {
+    let pictures = |count: u32| -> Vec<Replicate> {
+        let mut pictures = sound(count, 1e-3, 12);
+        for (index, picture) in pictures.iter_mut().enumerate() {
+            // One in fifteen is less bright than the others, which forbids a test by their deviation.
+            let factor = if index == 3 { 1.049 } else { 1.05 };
+            picture
+                .luminance
+                .iter_mut()
+                .for_each(|pixel| *pixel *= factor);
+        }
+        pictures
+    };
+    let few = judged(&pictures(4)).verdict;
+    assert!(matches!(few, Verdict::Undecided(_)), "{few:?}");
+    assert_eq!(judged(&pictures(32)).verdict, Verdict::Differs);
+}
+
 /// Half floats are no fault.
 #[test]
 fn eleven_bits_are_enough() {
