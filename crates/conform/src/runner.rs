@@ -2,6 +2,7 @@
 
 use crate::driver::Driver;
 use crate::job::Job;
+use crate::mitsuba_xml;
 use crate::mode::Mode;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,10 +37,11 @@ pub struct Runner<'a> {
     pub stop: &'a AtomicBool,
 }
 
-/// Where scenes and pictures are (an absolute path), and what the program is to leave out.
+/// Where scenes and pictures are (an absolute path), the seed of their poses, and what the program is to leave out.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
     pub(crate) folder: &'a Path,
+    pub(crate) suite_seed: u64,
     pub(crate) mode: Mode,
 }
 
@@ -48,14 +50,23 @@ impl Place<'_> {
         job.values(self.folder, 1, self.mode)
     }
 
+    /// What Mitsuba's format cannot say.
+    fn why_there_is_no_xml(&self, job: &Job) -> String {
+        let question = crate::questions::by_name(&job.question);
+        let why = question.and_then(|question| {
+            let (scene, _) = question.posed(self.suite_seed, job.pose);
+            mitsuba_xml::write(&scene, question.name, self.mode).err()
+        });
+        why.unwrap_or_else(|| "its XML is missing".to_owned())
+    }
+
     /// The command for a job, or why there is none.
     fn command(&self, driver: &Driver, job: &Job) -> Result<Vec<String>, Outcome> {
         let values = self.values(job);
         let words = &driver.description.command;
         let asks_for_xml = words.iter().any(|word| word.contains("{xml}"));
         if asks_for_xml && !Path::new(&values["xml"]).is_file() {
-            let why = "Mitsuba's format cannot say what is in the scene";
-            return Err(Outcome::Unsupported(why.to_owned()));
+            return Err(Outcome::Unsupported(self.why_there_is_no_xml(job)));
         }
         driver.command(&values).map_err(Outcome::Broken)
     }

@@ -237,6 +237,7 @@ impl Suite {
         begin(name, missing.len());
         let place = Place {
             folder: self.folder.path(),
+            suite_seed: self.plan.suite_seed,
             mode: self.plan.mode,
         };
         Ok(runner.run(driver, &missing, place))

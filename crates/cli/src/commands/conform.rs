@@ -167,7 +167,7 @@ fn ask(args: &ConformRunArgs) -> Result<ExitCode, String> {
         return Ok(ExitCode::from(interrupt::STOPPED));
     }
     keep(&suite, &report, &places)?;
-    let mut code = report.conclusion().exit_code();
+    let mut code = report.exit_code();
     let mut text = report.table();
     if let Some(baseline) = baseline {
         let (changes, worse) = changes(&baseline, &report);
@@ -226,7 +226,7 @@ fn judge(folder: &Path, program: Option<&str>) -> Result<ExitCode, String> {
         report.plan.title = program.to_owned();
     }
     keep(&suite, &report, &places(folder, None)?)?;
-    let code = ExitCode::from(report.conclusion().exit_code());
+    let code = ExitCode::from(report.exit_code());
     Ok(answer(&report.table(), code))
 }
 

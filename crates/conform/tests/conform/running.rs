@@ -37,10 +37,15 @@ fn driver(folder: &Path, script: &str, more: &str) -> Result<Driver, String> {
 
 const COMMAND: &str = "command = [\"sh\", \"{driver}\", \"{out}\", \"{seed}\", \"{scene}\"]\n";
 
+/// The one question of a wall.
 fn run(folder: &Path, driver: &Driver) -> Result<Report, String> {
-    let plan = Plan::new(1, Tier::Quick, Mode::Measure, |name| name == "wall");
+    ask(&folder.join("run"), driver, Tier::Quick, Mode::Measure)
+}
+
+fn ask(folder: &Path, driver: &Driver, tier: Tier, mode: Mode) -> Result<Report, String> {
+    let plan = Plan::new(1, tier, mode, |name| name == "wall");
     let plan = plan.of(driver, driver.version()?);
-    let mut suite = Suite::create(&folder.join("run"), plan)?;
+    let mut suite = Suite::create(folder, plan)?;
     let runner = Runner {
         workers: 2,
         limit: Duration::from_secs(2),
@@ -142,16 +147,8 @@ fn more_samples_and_a_seed_again_are_told() {
     let report = |number: &str| {
         let folder = tempfile::tempdir().expect("a folder");
         let driver = driver(folder.path(), &too_bright_by(number), COMMAND).expect("a driver");
-        let plan = Plan::new(1, Tier::Standard, Mode::Measure, |name| name == "wall");
-        let plan = plan.of(&driver, "7".to_owned());
-        let mut suite = Suite::create(&folder.path().join("run"), plan).expect("a run");
-        let runner = Runner {
-            workers: 2,
-            limit: Duration::from_secs(20),
-            done: &|_, _| {},
-            stop: &AtomicBool::new(false),
-        };
-        suite.run(&driver, &runner, |_, _| {}).expect("a report")
+        let into = folder.path().join("run");
+        ask(&into, &driver, Tier::Standard, Mode::Measure).expect("a report")
     };
     let repeats = report("$2");
     let finding = &repeats.rows[0].finding;
@@ -168,4 +165,17 @@ fn more_samples_and_a_seed_again_are_told() {
         "{}",
         other.table()
     );
+}
+
+/// What a program ships is told, and decides nothing.
+#[test]
+fn shipped_programs_are_not_judged() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let driver = driver(folder.path(), &too_bright_by("$2"), COMMAND).expect("a driver");
+    for (mode, code) in [(Mode::Measure, 1), (Mode::Shipped, 0)] {
+        let into = folder.path().join(mode.name());
+        let report = ask(&into, &driver, Tier::Quick, mode).expect("a report");
+        assert_eq!(report.rows[0].finding.verdict, Verdict::Differs);
+        assert_eq!(report.exit_code(), code, "{}", mode.name());
+    }
 }
