@@ -41,6 +41,8 @@ pub struct Plan {
     pub picture: PictureFormat,
     /// The names of the questions.
     pub questions: Vec<String>,
+    /// What they are: [`crate::questions::fingerprint`].
+    pub fingerprint: String,
     /// What the driver says of units and the like.
     pub conventions: BTreeMap<String, serde_json::Value>,
     /// Part I of N of the questions is rendered, every Nth from the Ith on; the error rates are those of all. The plan in a folder
@@ -57,8 +59,10 @@ impl Plan {
 
     /// The questions of a tier whose names fit, to a program that takes seeds and is not known yet.
     pub fn new(suite_seed: u64, tier: Tier, mode: Mode, fits: impl Fn(&str) -> bool) -> Self {
-        let asked = (crate::questions::ALL.iter())
-            .filter(|question| tier.asks(question) && fits(question.name));
+        let asked = || {
+            (crate::questions::ALL.iter())
+                .filter(|question| tier.asks(question) && fits(question.name))
+        };
         Self {
             version: Self::VERSION,
             suite_seed,
@@ -71,7 +75,8 @@ impl Plan {
             pose_each: false,
             samples_lights: true,
             picture: PictureFormat::Exr,
-            questions: asked.map(|question| question.name.to_owned()).collect(),
+            questions: asked().map(|question| question.name.to_owned()).collect(),
+            fingerprint: crate::questions::fingerprint(asked()),
             conventions: BTreeMap::new(),
             part: [1, 1],
         }

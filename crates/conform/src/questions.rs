@@ -75,7 +75,48 @@ pub const ALL: &[Question] = &[
     cameras::DEFOCUS_EDGE,
 ];
 
+/// Twelve hexadecimal digits that change when a scene, a truth or the samples of one of these questions do.
+pub fn fingerprint<'a>(questions: impl Iterator<Item = &'a Question>) -> String {
+    let mut hash = blake3::Hasher::new();
+    for question in questions {
+        let (scene, truth) = (question.ask)();
+        hash.update(question.name.as_bytes());
+        hash.update(scene.to_json().as_bytes());
+        hash.update(&question.samples.to_le_bytes());
+        for mean in truth.means {
+            // In single precision: a truth may be computed another way.
+            hash.update(&(mean as f32).to_le_bytes());
+        }
+    }
+    hash.finalize().to_hex()[..12].to_owned()
+}
+
 /// The question of this name.
 pub fn by_name(name: &str) -> Option<&'static Question> {
     ALL.iter().find(|question| question.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ALL, fingerprint};
+    use crate::question::Question;
+
+    #[test]
+    fn fingerprints_are_of_all_that_is_asked() {
+        let [first, second, ..] = ALL else {
+            panic!("there are questions");
+        };
+        let of = |questions: &[Question]| fingerprint(questions.iter());
+        assert_eq!(of(ALL), of(ALL));
+        assert_eq!(of(ALL).len(), 12);
+        let more_samples = Question {
+            samples: first.samples + 1,
+            ..*first
+        };
+        let all = [of(&[*first]), of(&[*second]), of(&[more_samples]), of(&[])];
+        let mut distinct = all.to_vec();
+        distinct.sort_unstable();
+        distinct.dedup();
+        assert_eq!(distinct.len(), all.len(), "{all:?}");
+    }
 }

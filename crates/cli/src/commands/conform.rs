@@ -284,6 +284,9 @@ fn diff(old: &Path, new: &Path) -> Result<ExitCode, String> {
 /// What changed from one report to another, and whether anything became worse.
 fn changes(old: &Report, new: &Report) -> (String, bool) {
     let (mut text, mut worse) = (String::new(), false);
+    if old.plan.fingerprint != new.plan.fingerprint {
+        text.push_str("the questions are not the same\n");
+    }
     for row in &new.rows {
         let word = row.finding.verdict.word();
         let before = old

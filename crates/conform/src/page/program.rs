@@ -41,6 +41,7 @@ fn one(program: &Program<'_>, among_others: bool) -> Markup {
                 dt { "Version" } dd { @if plan.program_version.is_empty() { "not told" } @else { (plan.program_version) } }
                 dt { "Asked" } dd { (report.rows.len()) " questions, tier " code { (plan.tier.name()) }
                     ", mode " code { (plan.mode.name()) } " (" (mode(plan.mode)) ")" }
+                dt { "Fingerprint" } dd { code { (plan.fingerprint) } " of the questions: their scenes, truths and samples" }
                 dt { "Bound" } dd { "δ = " (100.0 * plan.bound) " %" }
                 dt { "Seed of poses" } dd { (plan.suite_seed)
                     @if plan.pose_each { ", every picture in a pose of its own" } }
