@@ -268,7 +268,11 @@ impl<'a> Asked<'a> {
         let (bound, [low, high]) = (self.rules.bound, range(biases)?);
         let far = FAR * (high - low);
         let half = 0.5 * bound;
-        if low >= -half && high <= half && self.would_have_come(half * self.truth.mean(), 1.0) {
+        let all_came = || {
+            let missing = half * self.truth.mean();
+            self.would_have_come(missing, 1.0, self.rules.miss_level())
+        };
+        if low >= -half && high <= half && all_came() {
             Some(Verdict::Agrees)
         } else if low > bound + far || high < -bound - far && self.is_dark(high) {
             Some(Verdict::Differs)
@@ -301,18 +305,20 @@ impl<'a> Asked<'a> {
     /// Whether a mean that is off by this at most is too small.
     fn is_dark(&self, bias: f64) -> bool {
         let missing = -self.rules.bound - bias;
-        missing > 0.0 && self.would_have_come(missing * self.truth.mean(), 1.0)
+        let missing = missing * self.truth.mean();
+        missing > 0.0 && self.would_have_come(missing, 1.0, self.rules.alarm_level())
     }
 
     /// Whether a tile that is off by this many of its bounds at most is too dark.
     fn tile_is_dark(&self, known: f64, bounds: f64) -> bool {
         let missing = -1.0 - bounds;
-        missing > 0.0 && self.would_have_come(missing * self.off(known), f64::from(TILES * TILES))
+        let (missing, parts) = (missing * self.off(known), f64::from(TILES * TILES));
+        missing > 0.0 && self.would_have_come(missing, parts, self.rules.alarm_level())
     }
 
     /// Whether this much radiance, missing in one of `parts` equal parts of all pictures, would have come by now, in however rare
-    /// samples.
-    fn would_have_come(&self, missing: f64, parts: f64) -> bool {
+    /// samples, but for a probability of this level.
+    fn would_have_come(&self, missing: f64, parts: f64, level: f64) -> bool {
         let pixels = f64::from(self.truth.pixels * self.truth.pixels);
         let samples = pixels * f64::from(self.rules.samples) * self.replicates.len() as f64 / parts;
         // A pixel that is brighter shows that samples are.
@@ -321,7 +327,7 @@ impl<'a> Asked<'a> {
             .iter()
             .flat_map(|picture| &picture.luminance);
         let brightest = pixels.copied().fold(self.rules.brightest, f64::max);
-        samples * missing / brightest >= -ln(self.rules.alarm_level())
+        samples * missing / brightest >= -ln(level)
     }
 
     /// How far a tile of this mean may be off.
