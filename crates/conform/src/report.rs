@@ -148,8 +148,12 @@ impl Report {
                 row.question,
                 finding.verdict.word()
             );
+            // Where the mean is off, tiles are as well.
+            let of_shape = finding
+                .bias
+                .is_some_and(|bias| bias.abs() <= self.plan.bound);
             let tile = || {
-                let (column, row, _) = finding.tile?;
+                let (column, row, _) = finding.tile.filter(|_| of_shape)?;
                 Some(format!("most in the tile of column {column}, row {row}"))
             };
             let reason = finding.verdict.reason().map(str::to_owned);
