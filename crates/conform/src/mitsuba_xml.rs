@@ -62,7 +62,7 @@ pub fn write(scene: &Scene, name: &str, mode: Mode) -> Result<MitsubaXml, String
     let has_medium = scene.objects.iter().any(|object| object.interior.is_some());
     let integrator = if has_medium { "volpath" } else { "path" };
     let text = format!(
-        "<scene version=\"3.0.0\">\n  <default name=\"spp\" value=\"64\"/>\n  \
+        "<scene version=\"3.0.0\">\n  <default name=\"spp\" value=\"64\"/>\n  <default name=\"sampler\" value=\"independent\"/>\n  \
          <integrator type=\"{integrator}\">{depth}</integrator>\n{camera}{body}</scene>\n",
         camera = camera(&scene.camera, scene.pixels)
     );
@@ -119,7 +119,7 @@ fn camera(camera: &Camera, pixels: u32) -> String {
          <lookat origin=\"{origin}\" target=\"{target}\" up=\"{up}\"/></transform>\n    \
          <film type=\"hdrfilm\"><integer name=\"width\" value=\"{pixels}\"/><integer name=\"height\" value=\"{pixels}\"/>\
          <string name=\"component_format\" value=\"float32\"/><rfilter type=\"box\"/></film>\n    \
-         <sampler type=\"independent\"><integer name=\"sample_count\" value=\"$spp\"/></sampler>\n  </sensor>\n",
+         <sampler type=\"$sampler\"><integer name=\"sample_count\" value=\"$spp\"/></sampler>\n  </sensor>\n",
         near = float("near_clip", 1e-3),
         far = float("far_clip", 1e6),
         origin = triple(camera.origin_m),
