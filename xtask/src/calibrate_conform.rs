@@ -23,7 +23,7 @@ const LEVELS: [f64; 2] = [1e-2, 1e-3];
 /// How much to calibrate.
 #[derive(Clone, Debug, clap::Args)]
 #[command(
-    after_help = "Exit code: 0 if every promise is kept, 1 if one is not.\n\nExamples:\n  cargo xtask calibrate-conform\n  cargo xtask calibrate-conform --programs 1000000    # a quarter of an hour"
+    after_help = "Exit code: 0 if every promise is kept, 1 if one is not.\n\nExamples:\n  cargo xtask calibrate-conform\n  cargo xtask calibrate-conform --programs 160000    # a quarter of an hour"
 )]
 pub(crate) struct CalibrateConformArguments {
     /// Simulated programs
