@@ -259,5 +259,14 @@ mod tests {
             assert_eq!(total.differs, 0, "{noise:?}");
             assert!(total.agrees > 0, "{noise:?}");
         }
+        // Mutant rejected: programs that are off by three times the bound are accused.
+        for error in [3.0, -3.0] {
+            let program = NullProgram {
+                noise: Noise::Normal,
+                error,
+            };
+            let answers = program.ask(50, &[32, 128], &rules, 7);
+            assert!(answers.differs > 10 && answers.agrees == 0, "{answers:?}");
+        }
     }
 }

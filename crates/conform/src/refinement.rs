@@ -54,7 +54,7 @@ pub struct Refinement {
     /// Mean over truth, less 1.
     pub bias: f64,
     /// Its interval of 95 %.
-    pub interval: Option<[f64; 2]>,
+    pub interval: [f64; 2],
     /// How the error changed, where that can be told.
     pub trend: Option<Trend>,
 }
@@ -66,7 +66,7 @@ impl Refinement {
         let interval = Estimate::mean(&summary).interval(0.95);
         Some(Self {
             bias: summary.mean(),
-            interval: Some([interval.low, interval.high]),
+            interval: [interval.low, interval.high],
             trend: trend(before, after),
         })
     }

@@ -311,13 +311,12 @@ impl Suite {
         };
         let mut finding = judge(&truth, &replicates, &self.rules(question));
         if let Ok((_, finer)) = self.replicates(question, self.finer_jobs(question)) {
-            let biases = |pictures: &[Replicate]| -> Vec<f64> {
-                pictures
-                    .iter()
-                    .map(|picture| picture.mean() / truth.mean() - 1.0)
-                    .collect()
-            };
-            finding.refinement = Refinement::of(&biases(&replicates), &biases(&finer));
+            let before = finding.replicates.iter().map(|(_, ratio)| ratio - 1.0);
+            let after = finer
+                .iter()
+                .map(|picture| picture.mean() / truth.mean() - 1.0);
+            let [before, after]: [Vec<f64>; 2] = [before.collect(), after.collect()];
+            finding.refinement = Refinement::of(&before, &after);
         }
         finding
     }

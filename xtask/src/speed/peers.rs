@@ -2,18 +2,18 @@
 //!
 //! Each program renders pictures with seeds of their own, one at a time with one thread. A picture's time is all that passes until it is
 //! there, the reading of the scene included (1 to 20 ms; the first, in which programs start, is not counted). Time to 1 % is
-//! the shortest time × relative variance / 10⁻⁴, the mean over pixels of var / mean² of the luminance.
+//! the shortest time × relative variance / 10⁻⁴, as elsewhere here, of pictures over the mean of the truth.
 
+use super::pictures::{Facts, Pictures};
 use etalon_conform::driver::{Driver, Programs};
 use etalon_conform::mode::Mode;
 use etalon_conform::plan::Plan;
 use etalon_conform::questions;
-use etalon_conform::replicate::Replicate;
 use etalon_conform::runner::Runner;
 use etalon_conform::suite::Suite;
 use etalon_conform::tier::Tier;
 use etalon_validation::folders;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
@@ -57,12 +57,6 @@ impl FromStr for Peer {
     }
 }
 
-/// What a program took for a question.
-struct Cost {
-    seconds: f64,
-    variance: f64,
-}
-
 /// Measures Etalon and these, and prints a table.
 pub(super) fn compare(peers: &[Peer]) -> Result<(), String> {
     let etalon = folders::root().join("target/release/etalon");
@@ -92,9 +86,10 @@ pub(super) fn compare(peers: &[Peer]) -> Result<(), String> {
         let mut own = None;
         for driver in &drivers {
             let name = &driver.description.name;
-            match cost(driver, question, &folder.join(name)) {
-                Ok(Cost { seconds, variance }) => {
-                    let to_one_per_cent = seconds * variance / 1e-4;
+            match measure(driver, question, &folder.join(name)) {
+                Ok(facts) => {
+                    let to_one_per_cent = 1.0 / (1e-4 * facts.efficiency());
+                    let (seconds, [variance, _]) = (facts.seconds, facts.relative_variance);
                     let over = to_one_per_cent / *own.get_or_insert(to_one_per_cent);
                     println!(
                         "{question:24} {name:18} {seconds:9.3} {variance:10.3e} {to_one_per_cent:11.4} {over:8.2}"
@@ -107,8 +102,8 @@ pub(super) fn compare(peers: &[Peer]) -> Result<(), String> {
     Ok(())
 }
 
-/// The time and the noise of a program's pictures.
-fn cost(driver: &Driver, question: &str, folder: &std::path::Path) -> Result<Cost, String> {
+/// The times and the noise of a program's pictures.
+fn measure(driver: &Driver, question: &str, folder: &Path) -> Result<Facts, String> {
     // Pictures that are there would take no time.
     let _ = std::fs::remove_dir_all(folder);
     let plan = Plan::new(1, Tier::Standard, Mode::Measure, |name| name == question);
@@ -127,31 +122,24 @@ fn cost(driver: &Driver, question: &str, folder: &std::path::Path) -> Result<Cos
     let question = questions::by_name(question).ok_or("there is no such question")?;
     let pictures = suite.pictures(driver, &runner, question, SAMPLES, PICTURES + 1)?;
     let ends = ends.into_inner().unwrap_or_else(|error| error.into_inner());
+    // The first has no time.
     let times = ends
         .windows(2)
         .map(|pair| (pair[1] - pair[0]).as_secs_f64());
-    Ok(Cost {
-        seconds: times.fold(f64::INFINITY, f64::min),
-        variance: relative_variance(&pictures),
-    })
-}
-
-/// The mean over pixels of the variance over the square of the mean.
-fn relative_variance(pictures: &[Replicate]) -> f64 {
-    let count = pictures.len() as f64;
-    let pixels = pictures
-        .first()
-        .map_or(0, |picture| picture.luminance.len());
-    let of_pixel = |index: usize| {
-        let values = || pictures.iter().map(|picture| picture.luminance[index]);
-        let mean = values().sum::<f64>() / count;
-        let square = values().map(|x| (x - mean) * (x - mean)).sum::<f64>();
-        match mean > 0.0 {
-            true => square / ((count - 1.0) * mean * mean),
-            false => 0.0,
-        }
-    };
-    (0..pixels).map(of_pixel).sum::<f64>() / pixels.max(1) as f64
+    let (_, truth) = (question.ask)();
+    let mut measured = Pictures::default();
+    for (picture, seconds) in pictures
+        .iter()
+        .zip(std::iter::once(f64::INFINITY).chain(times))
+    {
+        // Relative to the truth, so that its brightness does not matter.
+        let relative = picture
+            .luminance
+            .iter()
+            .map(|x| [(x / truth.mean()) as f32; 3]);
+        measured.add(relative, seconds);
+    }
+    Ok(measured.facts(u64::from(SAMPLES)))
 }
 
 #[cfg(test)]
@@ -167,16 +155,5 @@ mod tests {
         );
         let peer: Peer = "luxcore".parse().expect("a peer");
         assert_eq!(peer.python, PathBuf::from("python3"));
-    }
-
-    #[test]
-    fn noise_is_relative() {
-        let picture = |luminance: [f64; 2]| Replicate {
-            pose: 0,
-            seed: 1,
-            luminance: luminance.to_vec(),
-        };
-        let pictures = [picture([0.9, 18.0]), picture([1.1, 22.0])];
-        assert!((relative_variance(&pictures) - 0.02).abs() < 1e-12);
     }
 }

@@ -75,7 +75,7 @@ fn numbers(finding: &Finding) -> Markup {
             }
             @if let Some(finer) = &finding.refinement {
                 dt { "With 4 × the samples" } dd { (signed(finer.bias))
-                    @if let Some([low, high]) = finer.interval { " in [" (signed(low)) ", " (signed(high)) "]" }
+                    " in [" (signed(finer.interval[0])) ", " (signed(finer.interval[1])) "]"
                     @if let Some(trend) = finer.trend { ": " (trend.words()) } }
             }
             @if let Some(suspicion) = &finding.suspicion {
