@@ -9,7 +9,7 @@ use crate::fault::PlantedFault;
 use crate::rendering;
 use etalon_film::{ExactFilm, Part, RenderedImage, TileMeans};
 use etalon_formats::FileAssets;
-use etalon_formats::mitsuba::{self, ReadOptions};
+use etalon_formats::{ReadOptions, mitsuba};
 use etalon_integrators::{RenderPlan, ReplicateRange};
 use etalon_params::Diagnostics;
 use etalon_render::decide::measure::Measure;

@@ -4,6 +4,7 @@
 //! files that a scene refers to. Nothing here trusts a file: sizes are checked before memory is
 //! asked for, and a broken file is a message, never a panic.
 
+mod document;
 mod file_assets;
 mod mesh_error;
 pub mod mitsuba;
@@ -15,6 +16,7 @@ mod search_path;
 pub mod serialized;
 mod unused;
 
+pub use document::{Document, ReadOptions, ReadOutcome, SourceFile};
 pub use file_assets::FileAssets;
 pub use mesh_error::{MeshError, Place};
 pub use search_path::SearchPath;

@@ -3,7 +3,8 @@
 //! `NAME.xml` is read; the messages must be the lines of `NAME.expected`, with file names
 //! without their folder. `parts` holds files that others include.
 
-use etalon_formats::mitsuba::{ReadOptions, read};
+use etalon_formats::ReadOptions;
+use etalon_formats::mitsuba::read;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 

@@ -1,6 +1,7 @@
 //! Properties of reading scenes: what is written is read, and nothing broken can do harm.
 
-use etalon_formats::mitsuba::{ReadOptions, ReadOutcome, read};
+use etalon_formats::mitsuba::read;
+use etalon_formats::{ReadOptions, ReadOutcome};
 use etalon_params::{Class, DMat4, DVec3, Node, Sources, Span, SpectrumText, Value};
 use proptest::prelude::*;
 use proptest::sample::Index;

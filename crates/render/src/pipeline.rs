@@ -13,7 +13,7 @@ use etalon_film::{
     recorded_seconds,
 };
 use etalon_formats::FileAssets;
-use etalon_formats::mitsuba::{self, Document, ReadOptions, ReadOutcome};
+use etalon_formats::{Document, ReadOptions, ReadOutcome, mitsuba};
 use etalon_integrators::{AnyIntegrator, Progress, RenderPlan, RenderStatistics, ReplicateRange};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span, Value};
 use etalon_sampling::{ReplicateKind, SamplerKind};

@@ -2,8 +2,8 @@
 
 use crate::load_options::LoadOptions;
 use etalon_film::Framing;
+use etalon_formats::Document;
 use etalon_formats::FileAssets;
-use etalon_formats::mitsuba::Document;
 
 /// A hash over everything that decides the scene: its files, the files it refers to, and what
 /// the command line said.

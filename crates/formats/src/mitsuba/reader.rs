@@ -4,8 +4,8 @@ use super::draft::Draft;
 use super::number::excerpt;
 use super::substitute::{LONGEST_VALUE, MOST_INSERTED, Parameters, Substituted, Trouble};
 use super::version::Version;
-use super::{ReadOptions, SourceFile};
 use crate::SearchPath;
+use crate::document::{ReadOptions, SourceFile};
 use etalon_params::{Diagnostic, FileId, Severity, Sources, Span};
 use std::path::PathBuf;
 

@@ -1,8 +1,8 @@
 //! `<spectrum filename="…">`: tabulated spectra in files of their own.
 
-use super::SourceFile;
 use super::attribute::Attributes;
 use super::reader::{File, Reader};
+use crate::document::SourceFile;
 use etalon_params::{Diagnostic, Span, SpectrumText};
 use etalon_spectrum::spd::line_range;
 use etalon_spectrum::{SpdTable, parse_spb, parse_spd};

@@ -3,7 +3,8 @@
 mod mitsuba06;
 mod old_files;
 
-use etalon_formats::mitsuba::{Document, ReadOptions, ReadOutcome, read};
+use etalon_formats::mitsuba::read;
+use etalon_formats::{Document, ReadOptions, ReadOutcome};
 use etalon_params::{Class, DMat4, DVec3, Node, Property, SpectrumText, Value};
 use std::path::Path;
 use std::sync::Arc;

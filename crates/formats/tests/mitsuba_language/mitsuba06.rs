@@ -2,7 +2,7 @@
 
 use super::old_files::{file, old, refused};
 use super::{children, document, outcome, property};
-use etalon_formats::mitsuba::ReadOptions;
+use etalon_formats::ReadOptions;
 use etalon_params::{Class, DVec3, Value};
 
 /// What a file of Mitsuba 0.6 says, in today's words; the value of a float or integer as a number.

@@ -1,7 +1,7 @@
 //! What only older files, and files written for more lenient readers, contain.
 
 use super::{children, document, outcome, property, scene};
-use etalon_formats::mitsuba::{Document, ReadOptions, ReadOutcome};
+use etalon_formats::{Document, ReadOptions, ReadOutcome};
 use etalon_params::{DVec3, Severity, SpectrumText, Value};
 
 pub(crate) fn file(text: &str) -> ReadOutcome {

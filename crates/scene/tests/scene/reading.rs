@@ -1,7 +1,7 @@
 //! Scenes written in the test.
 
 use etalon_formats::FileAssets;
-use etalon_formats::mitsuba::{self, ReadOptions};
+use etalon_formats::{ReadOptions, mitsuba};
 use etalon_params::{Diagnostics, Severity};
 use etalon_scene::{Compiled, Scene};
 use etalon_spectrum::Wavelengths;
