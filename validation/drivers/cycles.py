@@ -3,31 +3,32 @@
 Facts that it rests on: an emission's strength is radiance; a point lamp of power P has the intensity P/4π and, with a radius
 r and without soft falloff, is a true sphere of the radiance P/4π²r²; a spot has P/4π too, whatever its cone; a sun's strength
 is irradiance. There are no exact spheres but lamps: a black sphere that shines becomes one, all others become fine meshes of
-the same area.
+the same area. The width of GGX facets is the square of a roughness (kernel/svm/closure.h); they hide each other by their height
+(kernel/closure/bsdf_microfacet.h). A spot's blend is a smooth step in the cosine (kernel/light/spot.h).
 """
 
 import math
 
+import shapes  # before `protocol`, which takes this folder off the search path
 import protocol
 from protocol import Unsupported
 
 import bpy
 import numpy as np
-from mathutils import Matrix, Vector
-
-BLACK = {"kind": "diffuse", "reflectance": 0.0}
-CORNERS = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
-FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+from mathutils import Matrix
 
 
-def node(tree, kind, options=None, **inputs):
-    """A new shader node with these options, then these inputs (spaces in their names are underscores here)."""
+def node(tree, kind, inputs=None, output=0, **options):
+    """An output of a new shader node with these options; its inputs are values or outputs of other nodes."""
     new = tree.nodes.new(f"ShaderNode{kind}")
-    for name, value in (options or {}).items():
+    for name, value in options.items():
         setattr(new, name, value)
-    for name, value in inputs.items():
-        new.inputs[name.replace("_", " ")].default_value = value
-    return new
+    for name, value in (inputs or {}).items():
+        if isinstance(value, bpy.types.NodeSocket):
+            tree.links.new(value, new.inputs[name])
+        else:
+            new.inputs[name].default_value = value
+    return new.outputs[output]
 
 
 def grey(value):
@@ -35,29 +36,29 @@ def grey(value):
     return (value, value, value, 1.0)
 
 
-def surface(tree, material):
+def scattering(tree, material):
     """How a material scatters light, as a shader."""
     match material:
         case {"kind": "diffuse", "reflectance": rho}:
-            return node(tree, "BsdfDiffuse", Color=grey(rho), Roughness=0.0)
+            return node(tree, "BsdfDiffuse", {"Color": grey(rho), "Roughness": 0.0})
         case {"kind": "mirror", "reflectance": rho}:
-            return node(tree, "BsdfAnisotropic", Color=grey(rho), Roughness=0.0)
-        case {"kind": "conductor", "n": n, "k": k}:
-            return node(tree, "BsdfMetallic", {"fresnel_type": "PHYSICAL_CONDUCTOR"}, IOR=(n, n, n), Extinction=(k, k, k), Roughness=0.0)
+            return node(tree, "BsdfAnisotropic", {"Color": grey(rho), "Roughness": 0.0})
+        case {"kind": "rough_conductor", "masking": "separable"}:
+            raise Unsupported("facets hide each other by their height")
+        case {"kind": "conductor" | "rough_conductor", "n": n, "k": k}:
+            inputs = {"IOR": [n] * 3, "Extinction": [k] * 3, "Roughness": math.sqrt(material.get("alpha", 0.0))}
+            return node(tree, "BsdfMetallic", inputs, fresnel_type="PHYSICAL_CONDUCTOR", distribution="GGX")
         case {"kind": "glass", "n": n}:
-            return node(tree, "BsdfGlass", Color=grey(1.0), IOR=n, Roughness=0.0)
+            return node(tree, "BsdfGlass", {"Color": grey(1.0), "IOR": n, "Roughness": 0.0})
         case {"kind": "nothing"}:
-            return node(tree, "BsdfTransparent", Color=grey(1.0))
-    raise Unsupported(f"the material {material['kind']} is not known")
+            return node(tree, "BsdfTransparent", {"Color": grey(1.0)})
+    raise protocol.unknown("material", material)
 
 
 def emission(tree, radiance):
     """A shader that emits from the outer side only."""
-    mix, sides = node(tree, "MixShader"), node(tree, "NewGeometry")
-    tree.links.new(sides.outputs["Backfacing"], mix.inputs[0])
-    for slot, strength in ((1, radiance), (2, 0.0)):
-        tree.links.new(node(tree, "Emission", Strength=strength).outputs[0], mix.inputs[slot])
-    return mix
+    front, back = (node(tree, "Emission", {"Strength": strength}) for strength in (radiance, 0.0))
+    return node(tree, "MixShader", {0: node(tree, "NewGeometry", output="Backfacing"), 1: front, 2: back})
 
 
 def material(item):
@@ -66,42 +67,18 @@ def material(item):
     new.use_nodes = True
     tree = new.node_tree
     tree.nodes.clear()
-    end = node(tree, "OutputMaterial")
+    end = tree.nodes.new("ShaderNodeOutputMaterial").inputs
     radiance, medium = item["emitted_radiance"], item["interior"]
-    shader = surface(tree, item["material"])
+    shader = scattering(tree, item["material"])
     if radiance:
-        scattered, shader = shader, node(tree, "AddShader")
-        tree.links.new(scattered.outputs[0], shader.inputs[0])
-        tree.links.new(emission(tree, radiance).outputs[0], shader.inputs[1])
+        shader = node(tree, "AddShader", {0: shader, 1: emission(tree, radiance)})
     if item["material"]["kind"] != "nothing" or not medium:  # the border of a medium has none, a void body a clear one
-        tree.links.new(shader.outputs[0], end.inputs["Surface"])
+        tree.links.new(shader, end["Surface"])
     if medium:
-        absorption, scattering = medium["absorption_per_m"], medium["scattering_per_m"]
-        inside = node(tree, "VolumeCoefficients", Absorption_Coefficients=[absorption] * 3, Scatter_Coefficients=[scattering] * 3)
-        tree.links.new(inside.outputs[0], end.inputs["Volume"])
+        absorbed, scattered = [medium["absorption_per_m"]] * 3, [medium["scattering_per_m"]] * 3
+        inputs = {"Absorption Coefficients": absorbed, "Scatter Coefficients": scattered}
+        tree.links.new(node(tree, "VolumeCoefficients", inputs), end["Volume"])
     return new
-
-
-def polygons(shape):
-    """Corners and faces of a shape, which turn to the left from outside."""
-    match shape:
-        case {"kind": "quad", "center_m": center, "half_u_m": u, "half_v_m": v}:
-            return np.add(center, np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) @ [u, v]), [(0, 1, 2, 3)]
-        case {"kind": "box", "center_m": center, "half_axes_m": axes}:
-            return np.add(center, np.array(CORNERS) @ axes), FACES
-        case {"kind": "mesh", "positions_m": positions, "triangles": triangles}:
-            return np.array(positions), triangles
-        case {"kind": "sphere", "center_m": center, "radius_m": radius, "inward": inward}:
-            bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=6, radius=1.0)
-            ball = bpy.context.object
-            points = np.array([vertex.co for vertex in ball.data.vertices], float)
-            faces = [tuple(face.vertices) for face in ball.data.polygons]
-            bpy.data.objects.remove(ball)
-            a, b, c = points[np.array(faces)].transpose(1, 0, 2)
-            area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
-            points *= radius * math.sqrt(4 * math.pi / area)
-            return points + center, [face[::-1] for face in faces] if inward else faces
-    raise Unsupported(f"the shape {shape['kind']} is not known")
 
 
 def add(data):
@@ -112,10 +89,9 @@ def add(data):
 
 
 def aim(thing, origin, forward, up=None):
-    """Turns a thing that looks along its −z axis; without `up` its turn about that axis is of no matter."""
-    z = -Vector(forward).normalized()
-    x = (Vector(up) if up else z.orthogonal()).cross(z).normalized()
-    thing.matrix_world = Matrix.Translation(origin) @ Matrix((x, z.cross(x), z)).transposed().to_4x4()
+    """Turns a thing that looks along its −z axis."""
+    right, up, forward = shapes.frame(forward, up)
+    thing.matrix_world = Matrix(shapes.placed([right, up, -forward], origin))
 
 
 def lamp(kind, **settings):
@@ -128,27 +104,18 @@ def lamp(kind, **settings):
     return add(data)
 
 
-def sphere_lamp(shape, radiance, eye):
-    """A black sphere that shines, as a lamp. Lamps block no light, so that a black core just beneath its surface does, unless
-    the sphere looks so small that it blocks next to nothing (and single precision could not tell the two surfaces apart)."""
-    center, radius = shape["center_m"], shape["radius_m"]
-    ball = lamp("POINT", energy=4 * math.pi**2 * radius**2 * radiance, shadow_soft_size=radius)
-    ball.location, ball.visible_camera = center, True
-    if radius > 0.01 * math.dist(center, eye):
-        body({"shape": {**shape, "radius_m": 0.999 * radius}, "material": BLACK, "emitted_radiance": 0, "interior": None}, eye)
-
-
 def body(item, eye):
-    """An object, as a mesh or as a lamp."""
-    shape, radiance = item["shape"], item["emitted_radiance"]
-    if shape["kind"] == "sphere" and not shape["inward"] and item["material"] == BLACK and radiance:
-        sphere_lamp(shape, radiance, eye)
-        return
-    corners, faces = polygons(shape)
-    mesh = bpy.data.meshes.new("mesh")
-    mesh.from_pydata(corners.tolist(), [], faces)
-    mesh.materials.append(material(item))
-    add(mesh)
+    """An object, as a mesh or as a lamp; lamps block no light."""
+    if shapes.is_lamp(item):
+        radius = item["shape"]["radius_m"]
+        ball = lamp("POINT", energy=4 * math.pi**2 * radius**2 * item["emitted_radiance"], shadow_soft_size=radius)
+        ball.location, ball.visible_camera = item["shape"]["center_m"], True
+    for solid in shapes.core(item, eye) if shapes.is_lamp(item) else [item]:
+        corners, faces = shapes.polygons(solid["shape"])
+        mesh = bpy.data.meshes.new("mesh")
+        mesh.from_pydata(corners.tolist(), [], faces)
+        mesh.materials.append(material(solid))
+        add(mesh)
 
 
 def light(item):
@@ -161,38 +128,40 @@ def light(item):
         case {"kind": "spot", "position_m": position, "target_m": target, "intensity": intensity}:
             if item["dark_from_degrees"] > 90:
                 raise Unsupported("spots wider than a half space are cut off")
+            if item.get("falloff") not in (None, "smooth_in_cosine"):
+                raise Unsupported("spots fall off by a smooth step in the cosine")
             even, dark = (math.radians(item[angle]) for angle in ("even_to_degrees", "dark_from_degrees"))
-            blend = (math.cos(even) - math.cos(dark)) / (1 - math.cos(dark))  # smooth in the cosine between the angles
+            blend = (math.cos(even) - math.cos(dark)) / (1 - math.cos(dark))
             spot = lamp("SPOT", energy=4 * math.pi * intensity, spot_size=2 * dark, spot_blend=blend)
             aim(spot, position, np.subtract(target, position))
         case _:
-            raise Unsupported(f"the light {item['kind']} is not known")
+            raise protocol.unknown("light", item)
 
 
 def camera(item):
     """The camera."""
     data = bpy.data.cameras.new("camera")
-    forward = Vector(item["target_m"]) - Vector(item["origin_m"])
-    data.clip_start, data.clip_end = 1e-3 * forward.length, 1e6 * forward.length
-    projection = item["projection"]
-    match projection["kind"]:
-        case "orthographic":
-            data.type, data.ortho_scale = "ORTHO", projection["width_m"]
-        case "pinhole" | "thin_lens":
+    distance, projection = math.dist(item["origin_m"], item["target_m"]), item["projection"]
+    data.clip_start, data.clip_end = 1e-3 * distance, 1e6 * distance
+    match projection:
+        case {"kind": "orthographic", "width_m": width}:
+            data.type, data.ortho_scale = "ORTHO", width
+        case {"kind": "pinhole" | "thin_lens", "field_of_view_degrees": angle}:
             data.sensor_width = 36.0
-            data.lens = 18.0 / math.tan(math.radians(projection["field_of_view_degrees"]) / 2)
-        case kind:
-            raise Unsupported(f"the projection {kind} is not known")
+            data.lens = 18.0 / math.tan(math.radians(angle) / 2)
+        case _:
+            raise protocol.unknown("projection", projection)
     if "lens_radius_m" in projection:
         data.dof.use_dof, data.dof.focus_distance = True, projection["focus_distance_m"]
         data.dof.aperture_fstop = data.lens / 1000 / (2 * projection["lens_radius_m"])
     bpy.context.scene.camera = add(data)
-    aim(bpy.context.scene.camera, item["origin_m"], forward, item["up"])
+    aim(bpy.context.scene.camera, item["origin_m"], np.subtract(item["target_m"], item["origin_m"]), item["up"])
 
 
 def sky_map(tree, item):
     """The colour of a map. Its rows are stored from below; +z is the zenith, and columns begin at -x and go on toward +y."""
-    if item["interpolation"] not in ("none", "linear"):
+    interpolation = {"none": "Closest", "linear": "Linear"}.get(item["interpolation"])
+    if not interpolation:
         raise Unsupported("environment maps have rows in the middle of their cells, and this sky has not")
     rows, columns = item["rows"], item["columns"]
     pixels = np.ones((rows, columns, 4))
@@ -200,24 +169,23 @@ def sky_map(tree, item):
     image = bpy.data.images.new("sky", columns, rows, float_buffer=True)
     image.colorspace_settings.name = "Non-Color"
     image.pixels.foreach_set(pixels.astype(np.float32).ravel())
-    interpolation = {"none": "Closest", "linear": "Linear"}[item["interpolation"]]
-    texture = node(tree, "TexEnvironment", {"image": image, "interpolation": interpolation})
-    up, first = Vector(item["zenith"]), Vector(item["meridian"])
-    turn = node(tree, "Mapping", Rotation=Matrix((-first, -up.cross(first), up)).to_euler())
-    tree.links.new(node(tree, "TexCoord").outputs["Generated"], turn.inputs["Vector"])
-    tree.links.new(turn.outputs[0], texture.inputs["Vector"])
-    return texture.outputs["Color"]
+    up, first = np.array(item["zenith"]), np.array(item["meridian"])
+    turn = Matrix([-first, -np.cross(up, first), up]).to_euler()
+    direction = node(tree, "Mapping", {"Vector": node(tree, "TexCoord", output="Generated"), "Rotation": turn})
+    return node(tree, "TexEnvironment", {"Vector": direction}, image=image, interpolation=interpolation)
 
 
 def sky(item):
     """What surrounds all."""
     world = bpy.data.worlds.new("world")
     bpy.context.scene.world, world.use_nodes = world, True
-    background = world.node_tree.nodes["Background"]
-    background.inputs["Color"].default_value = grey(1.0)
-    background.inputs["Strength"].default_value = item.get("radiance", 0.0) if item and item["kind"] == "even" else float(bool(item))
-    if item and item["kind"] == "map":
-        world.node_tree.links.new(sky_map(world.node_tree, item), background.inputs["Color"])
+    tree = world.node_tree
+    inputs = tree.nodes["Background"].inputs
+    inputs["Strength"].default_value = 1.0
+    if item["kind"] == "even":
+        inputs["Color"].default_value = grey(item["radiance"])
+    else:
+        tree.links.new(sky_map(tree, item), inputs["Color"])
 
 
 def settings(job, pixels):
@@ -246,7 +214,8 @@ def render(scene, job):
         body(item, scene["camera"]["origin_m"])
     for item in scene["lights"]:
         light(item)
-    sky(scene["sky"])
+    if scene["sky"]:
+        sky(scene["sky"])
     camera(scene["camera"])
     settings(job, scene["pixels"])
     bpy.ops.render.render(write_still=True)

@@ -3,23 +3,20 @@
 Facts that it rests on, from LuxCore's source: an emission's gain is radiance, a sharp distant light's irradiance; a point or a
 sphere of gain G has the intensity G/4π; a spot's gain is its intensity; light leaves a triangle on the side of its normal only.
 There are no spheres but lamps, which no ray finds: a black sphere that shines becomes one where all is diffuse, all others
-become fine meshes of the same area. The film has its lowest row first, as a portable float map has.
+become fine meshes of the same area.
 """
 
-import itertools
 import math
 import os
+import tempfile
 import time
 
+import shapes  # before `protocol`, which takes this folder off the search path
 import protocol
 from protocol import Unsupported
 
 import numpy as np  # before pyluxcore, which ends Python if it comes first
 import pyluxcore
-
-BLACK = {"kind": "diffuse", "reflectance": 0.0}
-CORNERS = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
-FACES = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
 
 
 def grey(value):
@@ -51,12 +48,14 @@ def material(name, item):
         case {"kind": "conductor", "n": n, "k": k}:  # there is no smooth metal
             extra = prefixed(f"scene.textures.{name}-fresnel", {"type": "fresnelconst", "n": grey(n), "k": grey(k)})
             settings = {"type": "metal2", "fresnel": f"{name}-fresnel", "uroughness": 1e-4, "vroughness": 1e-4}
+        case {"kind": "rough_conductor"}:
+            raise Unsupported("facets have Schlick's distribution")
         case {"kind": "glass", "n": n}:
             settings = {"type": "glass", "kr": grey(1), "kt": grey(1), "interiorior": float(n), "exteriorior": 1.0}
         case {"kind": "nothing"}:
             settings = {"type": "null"}
-        case {"kind": kind}:
-            raise Unsupported(f"the material {kind} is not known")
+        case other:
+            raise protocol.unknown("material", other)
     if item["emitted_radiance"]:
         settings |= {"emission": grey(1), "emission.gain": grey(item["emitted_radiance"])}
     if item["interior"]:
@@ -67,54 +66,18 @@ def material(name, item):
     return extra | prefixed(f"scene.materials.{name}", settings)
 
 
-def icosphere():
-    """Corners of 20,480 triangles, an icosahedron's divided, with the area of the unit sphere."""
-    points = [np.roll((0, a, b * (1 + math.sqrt(5)) / 2), turn) for turn in range(3) for a in (-1, 1) for b in (-1, 1)]
-    near = lambda corners: all(math.dist(p, q) < 2.1 for p, q in itertools.combinations(corners, 2))
-    triples = np.array([corners for corners in itertools.combinations(points, 3) if near(corners)])
-    triples = np.where(np.linalg.det(triples)[:, None, None] > 0, triples, triples[:, ::-1])
-    triples /= np.linalg.norm(triples, axis=-1, keepdims=True)
-    for _ in range(5):
-        a, b, c = triples.transpose(1, 0, 2)
-        ab, bc, ca = ((p + q) / np.linalg.norm(p + q, axis=-1, keepdims=True) for p, q in ((a, b), (b, c), (c, a)))
-        triples = np.concatenate([np.stack(corners, 1) for corners in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
-    a, b, c = triples.transpose(1, 0, 2)
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
-    return triples * math.sqrt(4 * math.pi / area)
-
-
-def triangles(shape):
-    """Corners and triangles of a shape, which turn to the left from outside."""
-    match shape:
-        case {"kind": "quad", "center_m": center, "half_u_m": u, "half_v_m": v}:
-            return np.add(center, np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) @ [u, v]), [(0, 1, 2), (0, 2, 3)]
-        case {"kind": "box", "center_m": center, "half_axes_m": axes}:
-            return np.add(center, np.array(CORNERS) @ axes), FACES
-        case {"kind": "mesh", "positions_m": positions, "triangles": faces}:
-            return np.array(positions), faces
-        case {"kind": "sphere", "center_m": center, "radius_m": radius, "inward": inward}:
-            corners = (icosphere()[:, ::-1] if inward else icosphere()).reshape(-1, 3)
-            return np.add(center, radius * corners), np.arange(len(corners)).reshape(-1, 3).tolist()
-    raise Unsupported(f"the shape {shape['kind']} is not known")
-
-
 def body(scene, name, item):
     """Puts the mesh of an object into the scene and returns its settings."""
-    corners, faces = triangles(item["shape"])
-    scene.DefineMesh(f"{name}-mesh", list(map(tuple, corners.tolist())), list(map(tuple, faces)), None, None, None, None)
+    corners, faces = shapes.triangles(item["shape"])
+    scene.DefineMesh(f"{name}-mesh", list(map(tuple, corners.tolist())), faces, None, None, None, None)
     return material(name, item) | prefixed(f"scene.objects.{name}", {"material": name, "shape": f"{name}-mesh"})
 
 
-def sphere_lamp(scene, name, item, eye):
-    """A black sphere that shines, as a lamp. Lamps block no light, so that a black core just beneath its surface does, unless
-    the sphere looks so small that it blocks next to nothing (and single precision could not tell the two surfaces apart)."""
+def sphere_lamp(name, item):
+    """A black ball that shines, as a lamp, which blocks no light."""
     center, radius = item["shape"]["center_m"], item["shape"]["radius_m"]
     gain = 4 * math.pi**2 * radius**2 * item["emitted_radiance"]
-    settings = prefixed(f"scene.lights.{name}", {"type": "sphere", "position": center, "radius": radius, "gain": grey(gain)})
-    if radius > 0.01 * math.dist(center, eye):
-        core = {"shape": item["shape"] | {"radius_m": 0.999 * radius}, "material": BLACK, "emitted_radiance": 0, "interior": None}
-        settings |= body(scene, name, core)
-    return settings
+    return prefixed(f"scene.lights.{name}", {"type": "sphere", "position": center, "radius": radius, "gain": grey(gain)})
 
 
 def light(name, item):
@@ -125,21 +88,28 @@ def light(name, item):
         case {"kind": "sun", "direction": direction, "irradiance": irradiance}:
             settings = {"type": "sharpdistant", "direction": direction, "gain": grey(irradiance)}
         case {"kind": "spot", "position_m": position, "target_m": target, "intensity": intensity}:
+            if item.get("falloff") not in (None, "quartic_in_cosine"):
+                raise Unsupported("spots fall off by the fourth power in the cosine")
             even, dark = item["even_to_degrees"], item["dark_from_degrees"]
             settings = {"type": "spot", "position": position, "target": target, "gain": grey(intensity)}
             settings |= {"coneangle": dark, "conedeltaangle": dark - even}
-        case {"kind": kind}:
-            raise Unsupported(f"the light {kind} is not known")
+        case _:
+            raise protocol.unknown("light", item)
     return prefixed(f"scene.lights.{name}", settings)
 
 
-def sky(item):
-    """What surrounds all."""
-    if not item:
-        return {}
-    if item["kind"] != "even":
-        raise Unsupported(f"the sky {item['kind']} is not known to the driver")
-    return prefixed("scene.lights.sky", {"type": "constantinfinite", "gain": grey(item["radiance"])})
+def sky(item, file):
+    """What surrounds all. A map is written to this file: its rows begin at +z, and its columns at +x and go on toward +y."""
+    if item["kind"] == "even":
+        return prefixed("scene.lights.sky", {"type": "constantinfinite", "gain": grey(item["radiance"])})
+    interpolation = {"none": "nearest", "linear": "linear"}.get(item["interpolation"])
+    if not interpolation:
+        raise Unsupported("environment maps have rows in the middle of their cells, and this sky has not")
+    protocol.write_picture(file, np.reshape(item["radiance"], (item["rows"], item["columns"])))
+    up, first = np.array(item["zenith"]), np.array(item["meridian"])
+    columns = shapes.placed([first, np.cross(up, first), up], [0, 0, 0]).T.ravel().tolist()
+    settings = {"type": "infinite", "file": file, "gamma": 1.0, "filter": interpolation, "transformation": columns}
+    return prefixed("scene.lights.sky", settings)
 
 
 def camera(item):
@@ -150,8 +120,8 @@ def camera(item):
             settings |= {"type": "orthographic", "screenwindow": [-width / 2, width / 2, -width / 2, width / 2]}
         case {"kind": "pinhole" | "thin_lens", "field_of_view_degrees": angle}:
             settings |= {"type": "perspective", "fieldofview": angle}
-        case {"kind": kind}:
-            raise Unsupported(f"the projection {kind} is not known")
+        case other:
+            raise protocol.unknown("projection", other)
     if "lens_radius_m" in item["projection"]:
         settings |= {"lensradius": item["projection"]["lens_radius_m"], "focaldistance": item["projection"]["focus_distance_m"]}
     return prefixed("scene.camera", settings)
@@ -168,30 +138,37 @@ def configuration(job, pixels):
     return result
 
 
+def define(scene):
+    """The scene as LuxCore takes it."""
+    lux, settings = pyluxcore.Scene(), camera(scene["camera"])
+    diffuse = all(item["material"]["kind"] == "diffuse" for item in scene["objects"])  # else a mirror might have to show a lamp
+    for index, item in enumerate(scene["objects"]):
+        solids = [item]
+        if diffuse and shapes.is_lamp(item):
+            settings |= sphere_lamp(f"object{index}", item)
+            solids = shapes.core(item, scene["camera"]["origin_m"])
+        for solid in solids:
+            settings |= body(lux, f"object{index}", solid)
+    for index, item in enumerate(scene["lights"]):
+        settings |= light(f"light{index}", item)
+    with tempfile.NamedTemporaryFile(suffix=".pfm") as file:
+        if scene["sky"]:
+            settings |= sky(scene["sky"], file.name)
+        lux.Parse(properties(settings))
+    return lux
+
+
 def render(scene, job):
     """Renders a scene and writes the picture."""
-    lux, result, eye = pyluxcore.Scene(), {}, scene["camera"]["origin_m"]
-    diffuse = all(item["material"]["kind"] == "diffuse" for item in scene["objects"])
-    for index, item in enumerate(scene["objects"]):
-        sphere = item["shape"]["kind"] == "sphere" and not item["shape"]["inward"]
-        if sphere and diffuse and item["material"] == BLACK and item["emitted_radiance"]:
-            result |= sphere_lamp(lux, f"object{index}", item, eye)
-        else:
-            result |= body(lux, f"object{index}", item)
-    for index, item in enumerate(scene["lights"]):
-        result |= light(f"light{index}", item)
-    lux.Parse(properties(result | sky(scene["sky"]) | camera(scene["camera"])))
-    session = pyluxcore.RenderSession(pyluxcore.RenderConfig(properties(configuration(job, scene["pixels"])), lux))
+    session = pyluxcore.RenderSession(pyluxcore.RenderConfig(properties(configuration(job, scene["pixels"])), define(scene)))
     session.Start()
     while not session.HasDone():
         time.sleep(0.005)
         session.UpdateStats()
     session.Stop()
-    picture = np.zeros(3 * scene["pixels"] ** 2, np.float32)
+    picture = np.zeros((scene["pixels"], scene["pixels"], 3), np.float32)
     session.GetFilm().GetOutputFloat(pyluxcore.FilmOutputType.RGB, picture)
-    with open(job["out"], "wb") as file:
-        file.write(f"PF\n{scene['pixels']} {scene['pixels']}\n-1.0\n".encode())
-        picture.astype("<f4").tofile(file)
+    protocol.write_picture(job["out"], picture[::-1])  # the film has its bottom row first
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ fifth bounce on), so that `measure` and `shipped` are alike.
 
 import argparse
 
+import shapes  # before `protocol`, which takes this folder off the search path
 import protocol
 from protocol import Unsupported
 
@@ -24,18 +25,22 @@ def surface(material):
             bsdf = {"type": "conductor", "material": "none", "specular_reflectance": rho}
         case {"kind": "conductor", "n": n, "k": k}:
             bsdf = {"type": "conductor", "eta": n, "k": k}
+        case {"kind": "rough_conductor", "masking": "height_correlated"}:
+            raise Unsupported("facets hide each other independently")
+        case {"kind": "rough_conductor", "n": n, "k": k, "alpha": alpha}:
+            bsdf = {"type": "roughconductor", "distribution": "ggx", "alpha": alpha, "eta": n, "k": k}
         case {"kind": "glass", "n": n}:
             return {"type": "dielectric", "int_ior": n, "ext_ior": 1.0}
         case {"kind": "nothing"}:
             return {"type": "null"}
         case _:
-            raise Unsupported(f"the material {material['kind']} is not known")
+            raise protocol.unknown("material", material)
     return {"type": "twosided", "bsdf": bsdf}
 
 
-def placed(columns, center):
-    """The transform whose columns are these three axes, then the centre."""
-    return mi.ScalarTransform4f(np.vstack([np.column_stack([*columns, center]), [0, 0, 0, 1]]))
+def placed(axes, origin):
+    """The transform whose columns are these three axes, then the origin."""
+    return mi.ScalarTransform4f(shapes.placed(axes, origin))
 
 
 def mesh(positions, triangles, parts):
@@ -64,14 +69,12 @@ def body(item):
         case {"kind": "sphere", "center_m": center, "radius_m": radius, "inward": inward}:
             return {"type": "sphere", "center": center, "radius": radius, "flip_normals": inward, **parts}
         case {"kind": "quad", "center_m": center, "half_u_m": u, "half_v_m": v}:
-            normal = np.cross(u, v)
-            return {"type": "rectangle", "to_world": placed([u, v, normal / np.linalg.norm(normal)], center), **parts}
+            return {"type": "rectangle", "to_world": placed([u, v, shapes.unit(np.cross(u, v))], center), **parts}
         case {"kind": "box", "center_m": center, "half_axes_m": axes}:
             return {"type": "cube", "to_world": placed(axes, center), **parts}
         case {"kind": "mesh", "positions_m": positions, "triangles": triangles}:
             return mesh(positions, triangles, parts)
-        case shape:
-            raise Unsupported(f"the shape {shape['kind']} is not known")
+    raise protocol.unknown("shape", item["shape"])
 
 
 def light(item):
@@ -82,13 +85,13 @@ def light(item):
         case {"kind": "sun", "direction": direction, "irradiance": irradiance}:
             return {"type": "directional", "direction": direction, "irradiance": irradiance}
         case {"kind": "spot", "position_m": position, "target_m": target, "intensity": intensity}:
-            axis = np.subtract(target, position)
-            across = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])  # look_at asks for any direction off the axis
-            frame = mi.ScalarTransform4f().look_at(origin=position, target=target, up=across / np.linalg.norm(across))
+            if item.get("falloff") not in (None, "linear_in_angle"):
+                raise Unsupported("spots fall off linearly in the angle")
+            _, across, _ = shapes.frame(np.subtract(target, position))
+            frame = mi.ScalarTransform4f().look_at(origin=position, target=target, up=across)
             return {"type": "spot", "to_world": frame, "intensity": intensity,
                     "beam_width": item["even_to_degrees"], "cutoff_angle": item["dark_from_degrees"]}
-        case _:
-            raise Unsupported(f"the light {item['kind']} is not known")
+    raise protocol.unknown("light", item)
 
 
 def camera(item, pixels):
@@ -106,8 +109,7 @@ def camera(item, pixels):
             return {**sensor, "type": "perspective", "fov": angle}
         case {"kind": "thin_lens", "field_of_view_degrees": angle, "lens_radius_m": radius, "focus_distance_m": focus}:
             return {**sensor, "type": "thinlens", "fov": angle, "aperture_radius": radius, "focus_distance": focus}
-        case projection:
-            raise Unsupported(f"the projection {projection['kind']} is not known")
+    raise protocol.unknown("projection", item["projection"])
 
 
 def sky(item):
@@ -133,8 +135,7 @@ def render(scene, job):
         parts["sky"] = sky(scene["sky"])
     dr.set_thread_count(job["threads"])
     picture = mi.render(mi.load_dict(parts), spp=job["samples"], seed=job["seed"])
-    dr.set_thread_count(max(job["threads"], 2))  # with a single thread, Mitsuba 3.9 waits for ever as it writes an EXR
-    mi.Bitmap(picture).write(job["out"])
+    protocol.write_picture(job["out"], np.array(picture))
 
 
 if __name__ == "__main__":

@@ -12,11 +12,11 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+import shapes  # before `protocol`, which takes this folder off the search path
 import protocol
 from protocol import Unsupported
 
 import numpy as np
-import OpenEXR
 
 FADE = 1e-4  # light falls as 2/(1 + (d/FADE)²), which is 2 FADE²/d² at all distances that matter (m)
 
@@ -28,7 +28,7 @@ def vector(triple):
 
 def refuse_indirect(scene):
     """Refuses a scene in which a diffuse surface gets light other than straight from a light without extent."""
-    diffuse = [item for item in scene["objects"] if item["material"].get("reflectance") and item["material"]["kind"] == "diffuse"]
+    diffuse = [item for item in scene["objects"] if shapes.is_diffuse(item)]
     if not diffuse:
         return
     if scene["sky"] or any(item["emitted_radiance"] for item in scene["objects"]):
@@ -53,8 +53,10 @@ def finish(item):
             scatter = "diffuse 0 specular 0 reflection { 0 1 fresnel on } conserve_energy"
         case {"kind": "nothing"}:
             pigment, scatter = "rgbt 1", "diffuse 0"
+        case {"kind": "conductor" | "rough_conductor"}:
+            raise Unsupported("there are no metals of given n and k")
         case _:
-            raise Unsupported(f"there is no material {material['kind']}")
+            raise protocol.unknown("material", material)
     if medium["scattering_per_m"]:
         raise Unsupported("light that a medium scatters is not traced exactly")
     if absorption := medium["absorption_per_m"]:
@@ -74,13 +76,7 @@ def body(item):
         case {"kind": "box", "center_m": center, "half_axes_m": axes}:
             matrix = vector(np.ravel([*axes, center]))
             return f"box {{ <-1,-1,-1>, <1,1,1> {finish(item)} matrix {matrix} }}"
-        case {"kind": "quad", "center_m": center, "half_u_m": u, "half_v_m": v}:
-            corners = np.add(center, np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) @ [u, v])
-            triangles = [(0, 1, 2), (0, 2, 3)]
-        case {"kind": "mesh", "positions_m": corners, "triangles": triangles}:
-            pass
-        case shape:
-            raise Unsupported(f"the shape {shape['kind']} is not known")
+    corners, triangles = shapes.triangles(item["shape"])
     # POV-Ray's outer side is the one from which corners turn to the right, hence the order is turned round.
     faces = " ".join(f"triangle {{ {','.join(vector(corners[i]) for i in reversed(face))} }}" for face in triangles)
     return f"mesh {{ {faces} {finish(item)} }}"
@@ -92,33 +88,31 @@ def light(item):
         far = vector(-1e6 * np.array(item["direction"]))
         return f"light_source {{ {far}, rgb EXPOSURE*{item['irradiance'] / math.pi:.17g} parallel point_at <0,0,0> }}"
     cone = ""
-    if item["kind"] == "spot" and item["dark_from_degrees"] > 90:
-        raise Unsupported("spots wider than a half space are not traced")
     if item["kind"] == "spot":
+        if item["dark_from_degrees"] > 90:
+            raise Unsupported("spots wider than a half space are not traced")
+        if item.get("falloff") not in (None, "smooth_in_cosine"):
+            raise Unsupported("spots fall off by a smooth step in the cosine")
         cone = f"spotlight point_at {vector(item['target_m'])} radius {item['even_to_degrees']} falloff {item['dark_from_degrees']}"
     elif item["kind"] != "point":
-        raise Unsupported(f"the light {item['kind']} is not known")
+        raise protocol.unknown("light", item)
     color = f"rgb EXPOSURE*{item['intensity'] / (2 * math.pi * FADE**2):.17g}"
     return f"light_source {{ {vector(item['position_m'])}, {color} fade_distance {FADE} fade_power 2 {cone} }}"
 
 
 def camera(item, shift):
     """The camera, by its vectors to the right and up, which make it right-handed; shifted by fractions of the picture."""
-    origin, projection = np.array(item["origin_m"]), item["projection"]
-    forward = np.subtract(item["target_m"], origin)
-    forward = forward / np.linalg.norm(forward)
-    right = np.cross(forward, item["up"])
-    right = right / np.linalg.norm(right)
-    up = np.cross(right, forward)
-    match projection:
+    origin = np.array(item["origin_m"])
+    right, up, forward = shapes.frame(item["target_m"] - origin, item["up"])
+    match item["projection"]:
         case {"kind": "orthographic", "width_m": width}:
             kind = "orthographic"
             origin = origin + width * (shift[0] * right + shift[1] * up)
         case {"kind": "pinhole", "field_of_view_degrees": angle}:
             kind, width = "perspective", 2 * math.tan(math.radians(angle) / 2)
             forward = forward + width * (shift[0] * right + shift[1] * up)
-        case _:
-            raise Unsupported(f"there is no exact projection {projection['kind']}")
+        case other:
+            raise Unsupported(f"there is no exact projection {other['kind']}")
     axes = f"direction {vector(forward)} right {vector(width * right)} up {vector(width * up)}"
     return f"camera {{ {kind} location {vector(origin)} {axes} }}"
 
@@ -130,7 +124,7 @@ def text(scene, mode, shift):
     parts = [f"#version 3.7; global_settings {{ assumed_gamma 1.0 {limits} }}", camera(scene["camera"], shift)]
     if sky := scene["sky"]:
         if sky["kind"] != "even":
-            raise Unsupported(f"the sky {sky['kind']} is not known")
+            raise protocol.unknown("sky", sky)
         parts.append(f"background {{ rgb EXPOSURE*{sky['radiance']:.17g} }}")
     return "\n".join(parts + [body(item) for item in scene["objects"]] + [light(item) for item in scene["lights"]])
 
@@ -139,9 +133,7 @@ def trace(source, side, threads, exposure, folder):
     """Runs POV-Ray once; returns a linear picture of 16 bits, from 0 to 1."""
     (folder / "scene.pov").write_text(f"#declare EXPOSURE = {exposure:.17g};\n{source}", encoding="utf-8")
     options = ["+Iscene.pov", "+Oscene.ppm", "+FP16", "File_Gamma=1.0", f"+W{side}", f"+H{side}", f"+WT{threads}", "-A", "-D", "-V"]
-    run = subprocess.run(["povray", *options], cwd=folder, capture_output=True, text=True)
-    if run.returncode:
-        raise RuntimeError(run.stderr[-500:])
+    protocol.run("povray", *options, cwd=folder)
     raw = (folder / "scene.ppm").read_bytes()
     return np.frombuffer(raw[-6 * side * side :], ">u2").reshape(side, side, 3) / 65535
 
@@ -157,9 +149,7 @@ def render(scene, job):
             exposure *= 1 if not brightest else 1 / 64 if brightest == 1 else 0.5 / brightest
             picture = trace(source, pixels * grid, job["threads"], exposure, Path(folder))
             brightest = max(picture.max(), 1e-5)  # below this nothing is resolved: look again with much more light
-    mean = picture.reshape(pixels, grid, pixels, grid, 3).mean((1, 3)) / exposure
-    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
-    OpenEXR.File(header, {"RGB": mean.astype(np.float32)}).write(job["out"])
+    protocol.write_picture(job["out"], picture.reshape(pixels, grid, pixels, grid, 3).mean((1, 3)) / exposure)
 
 
 def version():

@@ -8,11 +8,11 @@ import fcntl
 import importlib.util
 import math
 import os
-import subprocess
 import tempfile
 import time
 from pathlib import Path
 
+import shapes  # before `protocol`, which takes this folder off the search path
 import protocol
 from protocol import Unsupported
 
@@ -21,9 +21,7 @@ import numpy as np
 TINY = 1e-6  # Radiance's FTINY: lengths that are not larger count as zero
 POINT = 1e-3  # radius of the sphere that stands for a light without extent (m)
 SUN = 0.1  # diameter of the disc that stands for a sun (degrees)
-MEASURE = "-ab 1000 -aa 0 -ad 1 -as 0 -lr 0 -lw 1e-4 -dj 1 -dt 0 -dc 1".split()
-CORNERS = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)])
-FACES = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+MEASURE = "-ab 1000 -aa 0 -ad 1 -as 0 -lr -1000 -lw 1e-4 -dj 1 -dt 0 -dc 1".split()
 
 
 def run(*command, given=None):
@@ -32,10 +30,7 @@ def run(*command, given=None):
     if wheel := importlib.util.find_spec("pyradiance"):
         folder = Path(wheel.origin).parent
         environment |= {"PATH": f"{folder / 'bin'}:{os.environ['PATH']}", "RAYPATH": f".:{folder / 'lib'}"}
-    done = subprocess.run([*map(str, command)], env=environment, input=given, capture_output=True)
-    if done.returncode:
-        raise RuntimeError(done.stderr.decode(errors="replace")[-500:])
-    return done.stdout
+    return protocol.run(*command, env=environment, input=given)
 
 
 def primitive(kind, modifier, name, *values):
@@ -65,10 +60,10 @@ def material(item, name):
             return primitive("mist", "void", name, [absorption] * 3, [0] * 3, 0)
         case {"kind": "mirror"}:
             raise Unsupported("mirrors are flat")
-        case {"kind": "conductor"}:
+        case {"kind": "conductor" | "rough_conductor"}:
             raise Unsupported("there are no metals of given n and k")
         case other:
-            raise Unsupported(f"the material {other['kind']} is not known")
+            raise protocol.unknown("material", other)
 
 
 def body(item, name):
@@ -78,16 +73,8 @@ def body(item, name):
             if radius <= TINY:
                 raise Unsupported("radii of a millionth or less count as zero")
             return [material(item, name), primitive("bubble" if inward else "sphere", name, f"{name}s", center, radius)]
-        case {"kind": "quad", "center_m": center, "half_u_m": u, "half_v_m": v}:
-            polygons = [np.add(center, np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) @ [u, v])]
-        case {"kind": "box", "center_m": center, "half_axes_m": axes}:
-            corners = np.add(center, CORNERS @ axes)
-            polygons = [corners[list(face)] for face in FACES]
-        case {"kind": "mesh", "positions_m": positions, "triangles": triangles}:
-            polygons = [np.array(positions)[triangle] for triangle in triangles]
-        case shape:
-            raise Unsupported(f"the shape {shape['kind']} is not known")
-    return [material(item, name)] + [primitive("polygon", name, f"{name}s{i}", corners) for i, corners in enumerate(polygons)]
+    corners, faces = shapes.polygons(item["shape"])
+    return [material(item, name)] + [primitive("polygon", name, f"{name}s{i}", corners[[*face]]) for i, face in enumerate(faces)]
 
 
 def light(item, name):
@@ -100,10 +87,12 @@ def light(item, name):
         case {"kind": "point", "position_m": position, "intensity": intensity}:
             kind, beam = "light", []
         case {"kind": "spot", "position_m": position, "target_m": target, "intensity": intensity}:
-            axis = np.subtract(target, position)  # its length is how far the focus lies behind the light
-            kind, beam = "spotlight", [item["even_to_degrees"] + item["dark_from_degrees"], TINY * axis / np.linalg.norm(axis)]
+            if item.get("falloff"):
+                raise Unsupported("spots do not fall off, but end at an angle")
+            axis = TINY * shapes.unit(np.subtract(target, position))  # its length is how far the focus lies behind the light
+            kind, beam = "spotlight", [item["even_to_degrees"] + item["dark_from_degrees"], axis]
         case _:
-            raise Unsupported(f"the light {item['kind']} is not known")
+            raise protocol.unknown("light", item)
     radiance = intensity / (math.pi * POINT**2)
     return [primitive(kind, "void", name, [radiance] * 3, *beam), primitive("sphere", name, f"{name}s", position, POINT)]
 
@@ -111,7 +100,7 @@ def light(item, name):
 def sky(item):
     """An even sky, which is found by chance."""
     if item["kind"] != "even":
-        raise Unsupported(f"the sky {item['kind']} is not supported")
+        raise protocol.unknown("sky", item)
     return [primitive("glow", "void", "sky", [item["radiance"]] * 3, 0), primitive("source", "sky", "skys", [0, 0, 1], 360)]
 
 
@@ -155,13 +144,10 @@ def render(scene, job):
         octree = Path(folder) / "scene.oct"
         octree.write_bytes(run("oconv", "-", given="\n".join(parts).encode()))
         directions = rays(scene["camera"], pixels, job)
-        if any(item["material"].get("reflectance") and item["material"]["kind"] == "diffuse" for item in scene["objects"]):
+        if any(map(shapes.is_diffuse, scene["objects"])):
             take_second()
         values = run("rtrace", "-h", "-w", "-fdd", *options, octree, given=directions)
-    picture = np.frombuffer(values).reshape(pixels, pixels, job["samples"], 3).mean((2, 3))
-    with open(job["out"], "wb") as file:  # PFM has the bottom row first; -1 says little-endian
-        file.write(f"Pf\n{pixels} {pixels}\n-1.0\n".encode())
-        picture[::-1].astype("<f4").tofile(file)
+    protocol.write_picture(job["out"], np.frombuffer(values).reshape(pixels, pixels, job["samples"], 3).mean((2, 3)))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ import math
 import random
 from importlib.metadata import version
 
+import shapes  # before `protocol`, which takes this folder off the search path
 import protocol
 from protocol import Unsupported
 
@@ -18,7 +19,7 @@ from raysect.core import AffineMatrix3D, Point3D, translate
 from raysect.core.math.random import seed
 from raysect.core.workflow import SerialEngine
 from raysect.optical import ConstantSF, World
-from raysect.optical.material import AbsorbingSurface, Add, Blend, Conductor, Dielectric, Lambert, NullVolume
+from raysect.optical.material import AbsorbingSurface, Add, Blend, Conductor, Dielectric, Lambert, NullVolume, RoughConductor
 from raysect.optical.material.debug import PerfectReflectingSurface
 from raysect.optical.observer import FullFrameSampler2D, OrthographicCamera, PinholeCamera, RadiancePipeline2D
 from raysect.primitive import Box, Mesh, Sphere
@@ -56,11 +57,15 @@ def surface(material, medium):
             return Blend(AbsorbingSurface(), PerfectReflectingSurface(), rho, surface_only=True)
         case {"kind": "conductor", "n": n, "k": k}:
             return Conductor(ConstantSF(n), ConstantSF(k))
+        case {"kind": "rough_conductor", "masking": "height_correlated"}:
+            raise Unsupported("facets hide each other independently")
+        case {"kind": "rough_conductor", "n": n, "k": k, "alpha": alpha}:
+            return RoughConductor(ConstantSF(n), ConstantSF(k), alpha)
         case {"kind": "glass", "n": n}:
             return Dielectric(ConstantSF(n), transmission)
         case {"kind": "nothing"}:
             return Dielectric(ConstantSF(1.0), transmission)
-    raise Unsupported(f"the material {material['kind']} is not known")
+    raise protocol.unknown("material", material)
 
 
 def shaded(item):
@@ -69,13 +74,12 @@ def shaded(item):
     if not radiance:
         return scattered
     glow = Glow(radiance, item["shape"])
-    black = item["material"] == {"kind": "diffuse", "reflectance": 0.0}
-    return glow if black else Add(scattered, glow, surface_only=True)
+    return glow if item["material"] == shapes.BLACK else Add(scattered, glow, surface_only=True)
 
 
 def placed(axes, origin):
     """The transform whose columns are these three axes, then the origin."""
-    return AffineMatrix3D(np.vstack([np.column_stack([*axes, origin]), [0, 0, 0, 1]]).tolist())
+    return AffineMatrix3D(shapes.placed(axes, origin).tolist())
 
 
 def body(item, world):
@@ -101,7 +105,7 @@ def body(item, world):
 def sky(item, center, distance, world):
     """An even sky: the inside of a very large sphere that glows."""
     if item["kind"] != "even":
-        raise Unsupported(f"the sky {item['kind']} is not supported")
+        raise protocol.unknown("sky", item)
     Sphere(FAR * distance, world, translate(*center), Glow(item["radiance"], {"kind": "sphere", "inward": True}))
 
 
@@ -115,11 +119,8 @@ def pinhole_weights(angle, pixels):
 
 def camera(item, pixels, pipeline):
     """The camera, and the weights that it gives its pixels."""
-    forward = np.subtract(item["target_m"], item["origin_m"])
-    z = forward / np.linalg.norm(forward)
-    x = np.cross(item["up"], z)
-    x /= np.linalg.norm(x)
-    frame = placed([x, np.cross(z, x), z], item["origin_m"])
+    right, up, forward = shapes.frame(np.subtract(item["target_m"], item["origin_m"]), item["up"])
+    frame = placed([-right, up, forward], item["origin_m"])
     settings = {"pipelines": [pipeline], "frame_sampler": FullFrameSampler2D(), "transform": frame}
     match item["projection"]:
         case {"kind": "orthographic", "width_m": width}:
@@ -148,10 +149,7 @@ def render(scene, job):
     seed(job["seed"])
     random.seed(job["seed"])  # the pixels are taken in the order of a shuffle
     observer.observe()
-    picture = pipeline.frame.mean.T / weights  # its columns come first
-    with open(job["out"], "wb") as file:  # PFM has the bottom row first; -1 says little-endian
-        file.write(f"Pf\n{scene['pixels']} {scene['pixels']}\n-1.0\n".encode())
-        picture[::-1].astype("<f4").tofile(file)
+    protocol.write_picture(job["out"], pipeline.frame.mean.T / weights)  # its columns come first
 
 
 if __name__ == "__main__":

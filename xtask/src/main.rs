@@ -1,4 +1,4 @@
-//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `calibrate-conform`, `efficiency`, `speed`, `bits`, `book`, `denoiser`, `gallery`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
+//! The tasks of the house: `cargo xtask validate`, `accelerators`, `references`, `mutants`, `calibrate`, `calibrate-conform`, `conform-references`, `efficiency`, `speed`, `bits`, `book`, `denoiser`, `gallery`, `farm-test`, `scenes`, `plugins`, `tables`, `tabulate`.
 
 mod accelerators;
 mod bits;
@@ -6,6 +6,7 @@ mod book;
 mod calibrate;
 mod calibrate_conform;
 mod compatibility;
+mod conform_references;
 mod denoiser;
 mod efficiency;
 mod farm_test;
@@ -48,6 +49,8 @@ enum Task {
     Calibrate(calibrate::Arguments),
     /// Show on simulated programs that `etalon conform` accuses as rarely as it says
     CalibrateConform(calibrate_conform::CalibrateConformArguments),
+    /// Render the references of those questions of `etalon conform` that have no closed form
+    ConformReferences(conform_references::ConformReferencesArguments),
     /// Measure by how much estimators are better than others (`benches/efficiency.toml`)
     Efficiency(efficiency::Arguments),
     /// Measure noise, time and efficiency on a list of scenes, beside Mitsuba 3's (`benches/speed.toml`)
@@ -82,6 +85,7 @@ fn main() -> ExitCode {
         Task::CalibrateConform(arguments) => return calibrate_conform::run(&arguments),
         Task::Speed(arguments) => return speed::run(&arguments),
         Task::References(arguments) => references::run(&arguments),
+        Task::ConformReferences(arguments) => conform_references::run(&arguments),
         Task::Efficiency(arguments) => efficiency::run(&arguments),
         Task::Accelerators(arguments) => accelerators::run(&arguments),
         Task::Bits => bits::run(),

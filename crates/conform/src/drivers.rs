@@ -31,11 +31,11 @@ macro_rules! drivers {
 // The list: name, description, and the files that it needs.
 drivers! {
     "etalon" "etalon.toml",
-    "mitsuba" "mitsuba.toml" "mitsuba.py" "protocol.py",
-    "mitsuba-spectral" "mitsuba-spectral.toml" "mitsuba.py" "protocol.py",
-    "cycles" "cycles.toml" "cycles.py" "protocol.py",
-    "luxcore" "luxcore.toml" "luxcore.py" "protocol.py",
-    "povray" "povray.toml" "povray.py" "protocol.py",
-    "radiance" "radiance.toml" "radiance.py" "protocol.py",
-    "raysect" "raysect.toml" "raysect.py" "protocol.py",
+    "mitsuba" "mitsuba.toml" "mitsuba.py" "protocol.py" "shapes.py",
+    "mitsuba-spectral" "mitsuba-spectral.toml" "mitsuba.py" "protocol.py" "shapes.py",
+    "cycles" "cycles.toml" "cycles.py" "protocol.py" "shapes.py",
+    "luxcore" "luxcore.toml" "luxcore.py" "protocol.py" "shapes.py",
+    "povray" "povray.toml" "povray.py" "protocol.py" "shapes.py",
+    "radiance" "radiance.toml" "radiance.py" "protocol.py" "shapes.py",
+    "raysect" "raysect.toml" "raysect.py" "protocol.py" "shapes.py",
 }

@@ -136,6 +136,9 @@ const MOST_TO_ADVISE: f64 = 100.0;
 /// So many pictures are not all near each other by chance: 16 normal numbers within a third of their deviation are as rare as 10⁻¹².
 const MANY: usize = 16;
 
+/// A truth is not off by more than this many of its standard errors: 3·10⁻⁷ of normal numbers are.
+const TRUSTED: f64 = 5.0;
+
 /// Pictures whose difference from the bound is this many times that among them are all beyond it.
 const FAR: f64 = 3.0;
 
@@ -146,6 +149,9 @@ struct Asked<'a> {
     /// Their means over the truth's.
     ratios: Vec<f64>,
     rules: &'a Rules,
+    /// The bound, less and more by what the truth itself may be off.
+    within: f64,
+    beyond: f64,
 }
 
 /// What came of it.
@@ -160,11 +166,14 @@ struct Decision {
 impl<'a> Asked<'a> {
     fn new(truth: &'a Picture, replicates: &'a [Replicate], rules: &'a Rules) -> Self {
         let mean = truth.mean();
+        let uncertain = TRUSTED * truth.error;
         Self {
             truth,
             replicates,
             ratios: replicates.iter().map(|r| r.mean() / mean).collect(),
             rules,
+            within: rules.bound - uncertain,
+            beyond: rules.bound + uncertain,
         }
     }
 
@@ -189,16 +198,17 @@ impl<'a> Asked<'a> {
     /// Pictures that no seed changes are judged as they are.
     fn without_noise(&self) -> Decision {
         let biases: Vec<f64> = self.ratios.iter().map(|ratio| ratio - 1.0).collect();
-        let bound = self.rules.bound;
         let tile = self.worst_tile(|known, sample| {
             let beyond = |off: &&f64| **off > 1.0 || self.tile_is_dark(known, **off);
             sample.iter().find(beyond).copied()
         });
         let verdict = match range(&biases) {
-            Some([low, high]) if high > bound || tile.is_some() || self.is_dark(low) => {
+            Some([low, high]) if high > self.beyond || tile.is_some() || self.is_dark(low) => {
                 Verdict::Differs
             }
-            Some([low, _]) if low < -bound => Verdict::Undecided(A_FEW_COULD_MAKE_UP.to_owned()),
+            Some([low, _]) if low < -self.within => {
+                Verdict::Undecided(A_FEW_COULD_MAKE_UP.to_owned())
+            }
             _ => Verdict::Agrees,
         };
         Decision {
@@ -237,17 +247,17 @@ impl<'a> Asked<'a> {
         {
             return decision(verdict, None);
         }
-        let beyond = |[low, high]: [f64; 2]| low > rules.bound || self.is_dark(high);
-        let too_bright = || e_value::exceeds(&self.ratios, 1.0 + rules.bound) >= 1.0 / alarm;
+        let beyond = |[low, high]: [f64; 2]| low > self.beyond || self.is_dark(high);
+        let too_bright = || e_value::exceeds(&self.ratios, 1.0 + self.beyond) >= 1.0 / alarm;
         if tile.is_some() || of_picture.is_some_and(beyond) || too_bright() {
             return decision(Verdict::Differs, tile);
         }
         let verdict = match interval(&biases, rules.miss_level()) {
-            Some([low, high]) if low >= -rules.bound && high <= rules.bound => Verdict::Agrees,
-            Some([_, high]) if high < -rules.bound => {
+            Some([low, high]) if low >= -self.within && high <= self.within => Verdict::Agrees,
+            Some([_, high]) if high < -self.within => {
                 Verdict::Undecided(A_FEW_COULD_MAKE_UP.to_owned())
             }
-            Some([low, _]) if low > rules.bound => Verdict::Undecided(
+            Some([low, _]) if low > self.within => Verdict::Undecided(
                 "too bright so far; but not shown at the level of an accusation".to_owned(),
             ),
             Some(interval) => Verdict::Undecided(self.what_it_would_take(interval)),
@@ -265,16 +275,16 @@ impl<'a> Asked<'a> {
         if biases.len() < MANY {
             return None;
         }
-        let (bound, [low, high]) = (self.rules.bound, range(biases)?);
+        let (beyond, [low, high]) = (self.beyond, range(biases)?);
         let far = FAR * (high - low);
-        let half = 0.5 * bound;
+        let half = 0.5 * self.within;
         let all_came = || {
             let missing = half * self.truth.mean();
             self.would_have_come(missing, 1.0, self.rules.miss_level())
         };
         if low >= -half && high <= half && all_came() {
             Some(Verdict::Agrees)
-        } else if low > bound + far || high < -bound - far && self.is_dark(high) {
+        } else if low > beyond + far || high < -beyond - far && self.is_dark(high) {
             Some(Verdict::Differs)
         } else {
             None
@@ -283,15 +293,15 @@ impl<'a> Asked<'a> {
 
     /// Why an interval decides nothing.
     fn what_it_would_take(&self, [low, high]: [f64; 2]) -> String {
-        let bound = self.rules.bound;
+        let bound = self.within;
         let farthest = if -low > high { low } else { high };
         let mut text = format!(
-            "at the level of the run the mean may be off by {:+.2} %, and ± {} % are allowed",
+            "at the level of the run the mean may be off by {:+.2} %, and ± {:.2} % are allowed",
             100.0 * farthest,
             100.0 * bound
         );
         // The interval narrows with the root of their number.
-        let room = bound - (0.5 * (low + high)).abs();
+        let room = self.within - (0.5 * (low + high)).abs();
         let more = (0.5 * (high - low) / room).powi(2);
         if room > 0.0 && more < MOST_TO_ADVISE {
             text += &format!(
@@ -304,8 +314,7 @@ impl<'a> Asked<'a> {
 
     /// Whether a mean that is off by this at most is too small.
     fn is_dark(&self, bias: f64) -> bool {
-        let missing = -self.rules.bound - bias;
-        let missing = missing * self.truth.mean();
+        let missing = (-self.beyond - bias) * self.truth.mean();
         missing > 0.0 && self.would_have_come(missing, 1.0, self.rules.alarm_level())
     }
 

@@ -5,6 +5,7 @@
 //! it, each time with a seed of its own. What comes back is [`judge`]d by the statistics of replicates: it *agrees* with the
 //! truth within a bound, *differs* from it, or is *undecided*; nothing is ever asked to be equal.
 
+pub mod badge;
 mod copies;
 pub mod driver;
 pub mod drivers;

@@ -5,8 +5,8 @@
 
 use crate::mode::Mode;
 use crate::scene::{
-    Camera, Interpolation, Light, Material, Object, Projection, Scene, Shape, Sky, Triple,
-    quad_normal,
+    Camera, Falloff, Interpolation, Light, Masking, Material, Object, Projection, Scene, Shape,
+    Sky, Triple, quad_normal,
 };
 use std::fmt::Write;
 
@@ -28,7 +28,7 @@ pub fn write(scene: &Scene, name: &str, mode: Mode) -> Result<MitsubaXml, String
     let mut body = String::new();
     for (index, object) in scene.objects.iter().enumerate() {
         let file = format!("{name}-{index}.obj");
-        body += &self::object(object, &file);
+        body += &self::object(object, &file)?;
         if let Shape::Mesh {
             positions_m,
             triangles,
@@ -37,10 +37,9 @@ pub fn write(scene: &Scene, name: &str, mode: Mode) -> Result<MitsubaXml, String
             files.push((file, obj(positions_m, triangles).into_bytes()));
         }
     }
-    scene
-        .lights
-        .iter()
-        .for_each(|light| body += &self::light(light));
+    for light in &scene.lights {
+        body += &self::light(light)?;
+    }
     match &scene.sky {
         None => {}
         Some(Sky::Even { radiance }) => {
@@ -128,7 +127,7 @@ fn camera(camera: &Camera, pixels: u32) -> String {
     )
 }
 
-fn object(object: &Object, file: &str) -> String {
+fn object(object: &Object, file: &str) -> Result<String, String> {
     let (kind, shape) = match &object.shape {
         Shape::Sphere {
             center_m,
@@ -177,10 +176,10 @@ fn object(object: &Object, file: &str) -> String {
             float("sigma_t", extinction)
         )
     });
-    format!(
+    Ok(format!(
         "  <shape type=\"{kind}\">{shape}\n    {}{emitter}{interior}</shape>\n",
-        bsdf(&object.material)
-    )
+        bsdf(&object.material)?
+    ))
 }
 
 /// The transform of a shape's own axes.
@@ -197,8 +196,8 @@ fn to_world(axes: [Triple; 3], center: Triple) -> String {
     )
 }
 
-fn bsdf(material: &Material) -> String {
-    match *material {
+fn bsdf(material: &Material) -> Result<String, String> {
+    Ok(match *material {
         Material::Diffuse { reflectance } => format!(
             "<bsdf type=\"twosided\"><bsdf type=\"diffuse\">{}</bsdf></bsdf>",
             uniform("reflectance", reflectance)
@@ -212,17 +211,29 @@ fn bsdf(material: &Material) -> String {
             uniform("eta", n),
             uniform("k", k)
         ),
+        Material::RoughConductor {
+            masking: Masking::HeightCorrelated,
+            ..
+        } => {
+            return Err("microfacets hide each other independently, and these do not".to_owned());
+        }
+        Material::RoughConductor { n, k, alpha, .. } => format!(
+            "<bsdf type=\"twosided\"><bsdf type=\"roughconductor\"><string name=\"distribution\" value=\"ggx\"/>{}{}{}</bsdf></bsdf>",
+            float("alpha", alpha),
+            uniform("eta", n),
+            uniform("k", k)
+        ),
         Material::Glass { n } => format!(
             "<bsdf type=\"dielectric\">{}{}</bsdf>",
             float("int_ior", n),
             float("ext_ior", 1.0)
         ),
         Material::Nothing => "<bsdf type=\"null\"/>".to_owned(),
-    }
+    })
 }
 
-fn light(light: &Light) -> String {
-    match *light {
+fn light(light: &Light) -> Result<String, String> {
+    Ok(match *light {
         Light::Point {
             position_m,
             intensity,
@@ -232,11 +243,18 @@ fn light(light: &Light) -> String {
             rgb("intensity", intensity)
         ),
         Light::Spot {
+            falloff: Some(Falloff::SmoothInCosine | Falloff::QuarticInCosine),
+            ..
+        } => {
+            return Err("spots fall off linearly in the angle, and this one does not".to_owned());
+        }
+        Light::Spot {
             position_m,
             target_m,
             intensity,
             even_to_degrees,
             dark_from_degrees,
+            ..
         } => {
             let axis = glam::DVec3::from(target_m) - glam::DVec3::from(position_m);
             let up = axis.normalize().any_orthonormal_vector().to_array();
@@ -259,7 +277,7 @@ fn light(light: &Light) -> String {
             triple(direction),
             rgb("irradiance", irradiance)
         ),
-    }
+    })
 }
 
 /// The plugin for a map: there +y is the zenith, and columns begin at −z and go on toward +x.

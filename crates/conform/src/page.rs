@@ -51,12 +51,15 @@ pub fn page(runs: &[Run<'_>]) -> String {
         [program] => format!("Questions to {}", program.name),
         programs => format!("Questions to {} programs", programs.len()),
     };
+    let is_one = programs.len() == 1;
     let body = html! {
-        (program::programs(&programs))
+        // Several programs are compared first, and told apart below.
+        @if is_one { (program::programs(&programs)) }
         (reading::legend(&programs))
         h2 { "Question by question" }
         (matrix::filters(&programs, &asked))
         (matrix::matrix(&programs, &asked))
+        @if !is_one { h2 { "The programs" } (program::programs(&programs)) }
         (reading::checklist(differs))
         h2 { "All that is known" }
         @for asked in &asked { (detail::detail(asked, &programs)) }

@@ -1,7 +1,11 @@
-//! What a run is, before anything is rendered.
+//! What a run is, before anything is rendered: what is asked, and which pictures answer it.
 
 use crate::driver::{Driver, PictureFormat};
+use crate::job::Job;
 use crate::mode::Mode;
+use crate::pose::Freedom;
+use crate::question::Question;
+use crate::refinement;
 use crate::tier::Tier;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -12,6 +16,9 @@ pub const BOUND: f64 = 0.005;
 
 /// δ where a strict one is asked for.
 pub const STRICT_BOUND: f64 = 0.001;
+
+/// Poses of a question where seeds differ.
+const POSES: u32 = 2;
 
 /// What a run is; it stands in `plan.json` of its folder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -111,6 +118,47 @@ impl Plan {
                 "version {other} of the plan, and this program knows {}",
                 Self::VERSION
             ))),
+        }
+    }
+
+    /// A picture of a question.
+    pub fn job(&self, question: &Question, index: u32) -> Job {
+        // Programs without random numbers have a pose for each picture.
+        let poses = match self.pose_each || question.freedom == Freedom::EachAnew {
+            true => self.tier.most(),
+            false => POSES,
+        };
+        Job {
+            question: question.name.to_owned(),
+            pose: index % poses,
+            samples: question.samples,
+            seed: question.seed(index),
+            again: false,
+            picture: self.picture,
+        }
+    }
+
+    /// The pictures of a question up to a look.
+    pub fn jobs(&self, question: &Question, count: u32) -> Vec<Job> {
+        (0..count).map(|index| self.job(question, index)).collect()
+    }
+
+    /// The pictures of a question with more samples, of seeds that no other has.
+    pub fn finer_jobs(&self, question: &Question) -> Vec<Job> {
+        let seed = |job: Job| Job {
+            samples: refinement::FACTOR * job.samples,
+            seed: job.seed + self.tier.most(),
+            ..job
+        };
+        let jobs = self.jobs(question, refinement::PICTURES);
+        jobs.into_iter().map(seed).collect()
+    }
+
+    /// The first picture of a question once more.
+    pub fn again(&self, question: &Question) -> Job {
+        Job {
+            again: true,
+            ..self.job(question, 0)
         }
     }
 }

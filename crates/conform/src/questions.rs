@@ -9,7 +9,9 @@ mod form_factors;
 mod glass;
 mod media;
 mod mirrors;
+mod references;
 mod rooms;
+mod rough_metals;
 mod skies;
 mod sphere_lights;
 mod stage;
@@ -36,6 +38,9 @@ pub const ALL: &[Question] = &[
     delta_lights::POINT,
     delta_lights::SPOT,
     delta_lights::SPOT_ASIDE,
+    delta_lights::SPOT_LINEAR,
+    delta_lights::SPOT_SMOOTH,
+    delta_lights::SPOT_QUARTIC,
     delta_lights::SUN,
     form_factors::PARALLEL,
     form_factors::PERPENDICULAR,
@@ -64,6 +69,10 @@ pub const ALL: &[Question] = &[
     mirrors::CONDUCTOR_WEAK,
     mirrors::CORRIDOR,
     mirrors::ROOM,
+    rough_metals::HIGHLIGHT,
+    rough_metals::HIGHLIGHT_CORRELATED,
+    rough_metals::SKY,
+    rough_metals::SKY_CORRELATED,
     media::ABSORBER,
     media::SLANTED,
     media::BALL,
@@ -73,6 +82,10 @@ pub const ALL: &[Question] = &[
     cameras::WIDE,
     cameras::DEFOCUS,
     cameras::DEFOCUS_EDGE,
+    references::CORNELL_BOX,
+    references::NEXT_ROOM,
+    references::CAUSTIC,
+    references::CLOUD,
 ];
 
 /// Twelve hexadecimal digits that change when a scene, a truth or the samples of one of these questions do.

@@ -72,8 +72,5 @@ pub fn mean(replicates: &[Replicate], pixels: u32) -> Option<Picture> {
     let count = replicates.len() as f64;
     let mean = |index: usize| replicates.iter().map(|r| r.luminance[index]).sum::<f64>() / count;
     let pixel_count = (pixels * pixels) as usize;
-    (!replicates.is_empty()).then(|| Picture {
-        pixels,
-        means: (0..pixel_count).map(mean).collect(),
-    })
+    (!replicates.is_empty()).then(|| Picture::exact(pixels, (0..pixel_count).map(mean).collect()))
 }

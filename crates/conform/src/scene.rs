@@ -145,6 +145,17 @@ pub enum Material {
         /// Imaginary part.
         k: f64,
     },
+    /// A rough metal in air: microfacets of Trowbridge and Reitz's distribution (GGX), which reflect once.
+    RoughConductor {
+        /// Real part of the index of refraction.
+        n: f64,
+        /// Imaginary part.
+        k: f64,
+        /// The width of the distribution of slopes.
+        alpha: f64,
+        /// How facets hide each other.
+        masking: Masking,
+    },
     /// Smooth clear glass in air, without polarisation.
     Glass {
         /// Its index of refraction.
@@ -152,6 +163,17 @@ pub enum Material {
     },
     /// No surface at all: the border of a medium.
     Nothing,
+}
+
+/// How microfacets hide each other from the light and from the eye, by Smith's Λ of either direction. Programs have different
+/// rules, each with a truth of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Masking {
+    /// Independently: 1/((1 + Λ(o)) (1 + Λ(i))).
+    Separable,
+    /// Facets that lie deep are hidden from both: 1/(1 + Λ(o) + Λ(i)).
+    HeightCorrelated,
 }
 
 /// What scatters and absorbs within a body, evenly in all directions.
@@ -175,7 +197,7 @@ pub enum Light {
         /// Its intensity.
         intensity: f64,
     },
-    /// Shines from a point into a cone: evenly up to one angle, not at all beyond another. Nothing is asked of what is between.
+    /// Shines from a point into a cone: evenly up to one angle, not at all beyond another.
     Spot {
         /// The point.
         position_m: Triple,
@@ -187,6 +209,8 @@ pub enum Light {
         even_to_degrees: f64,
         /// The second.
         dark_from_degrees: f64,
+        /// What is between the two; null where nothing is asked of that.
+        falloff: Option<Falloff>,
     },
     /// Parallel light.
     Sun {
@@ -195,6 +219,18 @@ pub enum Light {
         /// Irradiance across it.
         irradiance: f64,
     },
+}
+
+/// How the light of a spot falls off between its two angles. Programs have different rules, each with a truth of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Falloff {
+    /// As the angle from the axis grows: t = (dark − θ)/(dark − even).
+    LinearInAngle,
+    /// t² (3 − 2t), t = (cos θ − cos dark)/(cos even − cos dark).
+    SmoothInCosine,
+    /// t⁴ of the same t.
+    QuarticInCosine,
 }
 
 /// What surrounds all.
@@ -237,131 +273,6 @@ pub enum Interpolation {
 }
 
 impl Scene {
-    /// The scene turned, grown and moved together with its camera: the picture stays the same.
-    #[must_use]
-    pub fn posed(&self, pose: &crate::pose::Pose) -> Self {
-        let point = |p: Triple| pose.point(p.into()).to_array();
-        let vector = |v: Triple| pose.vector(v.into()).to_array();
-        let direction = |v: Triple| pose.direction(v.into()).to_array();
-        let scale = pose.scale;
-        let projection = match self.camera.projection.clone() {
-            Projection::Orthographic { width_m } => Projection::Orthographic {
-                width_m: width_m * scale,
-            },
-            Projection::ThinLens {
-                field_of_view_degrees,
-                lens_radius_m,
-                focus_distance_m,
-            } => Projection::ThinLens {
-                field_of_view_degrees,
-                lens_radius_m: lens_radius_m * scale,
-                focus_distance_m: focus_distance_m * scale,
-            },
-            pinhole @ Projection::Pinhole { .. } => pinhole,
-        };
-        let shape = |shape: &Shape| match shape {
-            Shape::Sphere {
-                center_m,
-                radius_m,
-                inward,
-            } => Shape::Sphere {
-                center_m: point(*center_m),
-                radius_m: radius_m * scale,
-                inward: *inward,
-            },
-            Shape::Quad {
-                center_m,
-                half_u_m,
-                half_v_m,
-            } => Shape::Quad {
-                center_m: point(*center_m),
-                half_u_m: vector(*half_u_m),
-                half_v_m: vector(*half_v_m),
-            },
-            Shape::Box {
-                center_m,
-                half_axes_m,
-            } => Shape::Box {
-                center_m: point(*center_m),
-                half_axes_m: half_axes_m.map(vector),
-            },
-            Shape::Mesh {
-                positions_m,
-                triangles,
-            } => Shape::Mesh {
-                positions_m: positions_m.iter().copied().map(point).collect(),
-                triangles: triangles.clone(),
-            },
-        };
-        let light = |light: &Light| match *light {
-            Light::Point {
-                position_m,
-                intensity,
-            } => Light::Point {
-                position_m: point(position_m),
-                intensity: intensity * scale * scale,
-            },
-            Light::Spot {
-                position_m,
-                target_m,
-                intensity,
-                even_to_degrees,
-                dark_from_degrees,
-            } => Light::Spot {
-                position_m: point(position_m),
-                target_m: point(target_m),
-                intensity: intensity * scale * scale,
-                even_to_degrees,
-                dark_from_degrees,
-            },
-            Light::Sun {
-                direction: toward,
-                irradiance,
-            } => Light::Sun {
-                direction: direction(toward),
-                irradiance,
-            },
-        };
-        let object = |object: &Object| Object {
-            shape: shape(&object.shape),
-            interior: object.interior.map(|medium| Medium {
-                absorption_per_m: medium.absorption_per_m / scale,
-                scattering_per_m: medium.scattering_per_m / scale,
-            }),
-            ..object.clone()
-        };
-        let sky = |sky: &Sky| match sky.clone() {
-            Sky::Map {
-                interpolation,
-                zenith,
-                meridian,
-                rows,
-                columns,
-                radiance,
-            } => Sky::Map {
-                interpolation,
-                zenith: direction(zenith),
-                meridian: direction(meridian),
-                rows,
-                columns,
-                radiance,
-            },
-            even @ Sky::Even { .. } => even,
-        };
-        Self {
-            camera: Camera {
-                origin_m: point(self.camera.origin_m),
-                target_m: point(self.camera.target_m),
-                up: direction(self.camera.up),
-                projection,
-            },
-            objects: self.objects.iter().map(object).collect(),
-            lights: self.lights.iter().map(light).collect(),
-            sky: self.sky.as_ref().map(sky),
-            ..self.clone()
-        }
-    }
-
     /// The greatest radiance that anything with an extent emits.
     pub fn brightest_emission(&self) -> f64 {
         let objects = self.objects.iter().map(|object| object.emitted_radiance);

@@ -7,9 +7,8 @@ use crate::job::Job;
 use crate::judge::{Finding, Verdict, judge};
 use crate::page::Run;
 use crate::plan::Plan;
-use crate::pose::Freedom;
 use crate::question::Question;
-use crate::refinement::{self, Refinement};
+use crate::refinement::Refinement;
 use crate::replicate::{self, Replicate};
 use crate::report::{Report, Row};
 use crate::rules::{BRIGHTEST, Rules};
@@ -27,9 +26,6 @@ pub struct Suite {
     /// What is known of questions without pictures.
     refusals: BTreeMap<String, Verdict>,
 }
-
-/// Poses of a question where seeds differ.
-const POSES: u32 = 2;
 
 impl Suite {
     /// Begins a run in a folder, or goes on with the same run there.
@@ -71,47 +67,6 @@ impl Suite {
         })
     }
 
-    /// A picture of a question.
-    fn job(&self, question: &Question, index: u32) -> Job {
-        // Programs without random numbers have a pose for each picture.
-        let poses = match self.plan.pose_each || question.freedom == Freedom::EachAnew {
-            true => self.plan.tier.most(),
-            false => POSES,
-        };
-        Job {
-            question: question.name.to_owned(),
-            pose: index % poses,
-            samples: question.samples,
-            seed: question.seed(index),
-            again: false,
-            picture: self.plan.picture,
-        }
-    }
-
-    /// The pictures of a question up to a look.
-    fn jobs(&self, question: &Question, count: u32) -> Vec<Job> {
-        (0..count).map(|index| self.job(question, index)).collect()
-    }
-
-    /// The pictures of a question with more samples, of seeds that no other has.
-    fn finer_jobs(&self, question: &Question) -> Vec<Job> {
-        let seed = |job: Job| Job {
-            samples: refinement::FACTOR * job.samples,
-            seed: job.seed + self.plan.tier.most(),
-            ..job
-        };
-        let jobs = self.jobs(question, refinement::PICTURES);
-        jobs.into_iter().map(seed).collect()
-    }
-
-    /// The first picture of a question once more.
-    fn again(&self, question: &Question) -> Job {
-        Job {
-            again: true,
-            ..self.job(question, 0)
-        }
-    }
-
     /// All pictures of the first look, for whoever renders them elsewhere; their scenes are written.
     ///
     /// # Errors
@@ -120,7 +75,7 @@ impl Suite {
         let count = self.plan.tier.looks().first().copied().unwrap_or(0);
         let mut jobs = Vec::new();
         for question in &self.questions {
-            let of_question = self.jobs(question, count);
+            let of_question = self.plan.jobs(question, count);
             self.write_scenes(question, &of_question)?;
             jobs.extend(of_question);
         }
@@ -155,7 +110,7 @@ impl Suite {
             let name = format!("look {}", look + 1);
             let ended =
                 self.render(driver, runner, (&name, &begin), &open, |suite, question| {
-                    suite.jobs(question, *count)
+                    suite.plan.jobs(question, *count)
                 })?;
             for (job, outcome) in ended {
                 let verdict = match outcome {
@@ -176,7 +131,7 @@ impl Suite {
             runner,
             ("more samples", &begin),
             &finer,
-            Self::finer_jobs,
+            |suite, question| suite.plan.finer_jobs(question),
         )?;
         let noisy: Vec<_> = self.cheapest_with_noise().into_iter().collect();
         self.render(
@@ -184,7 +139,7 @@ impl Suite {
             runner,
             ("a seed again", &begin),
             &noisy,
-            |suite, question| vec![suite.again(question)],
+            |suite, question| vec![suite.plan.again(question)],
         )?;
         Ok(self.judge())
     }
@@ -202,7 +157,7 @@ impl Suite {
         count: u32,
     ) -> Result<Vec<Replicate>, String> {
         let jobs = |suite: &Self, question: &Question| {
-            let mut jobs = suite.jobs(question, count);
+            let mut jobs = suite.plan.jobs(question, count);
             jobs.iter_mut().for_each(|job| job.samples = samples);
             jobs
         };
@@ -246,7 +201,7 @@ impl Suite {
     /// The question of the fewest samples whose pictures have noise, if seeds are to make any.
     fn cheapest_with_noise(&self) -> Option<&'static Question> {
         let noisy = |question: &&&'static Question| {
-            let replicates = self.replicates(question, self.jobs(question, 4));
+            let replicates = self.replicates(question, self.plan.jobs(question, 4));
             replicates.is_ok_and(|(_, pictures)| copies::are_noisy(&pictures))
         };
         let questions = self.questions.iter().filter(|_| !self.plan.pose_each);
@@ -273,7 +228,7 @@ impl Suite {
     /// Whether a seed gave the same picture twice, if one was rendered twice.
     fn seed_repeats(&self) -> Option<bool> {
         self.questions.iter().find_map(|question| {
-            let twice = vec![self.job(question, 0), self.again(question)];
+            let twice = vec![self.plan.job(question, 0), self.plan.again(question)];
             let (_, pictures) = self.replicates(question, twice).ok()?;
             let [a, b] = &pictures[..] else { return None };
             Some(a.is_copy_of(b))
@@ -305,12 +260,12 @@ impl Suite {
             return Finding::of(verdict.clone());
         }
         let most = self.plan.tier.most();
-        let (truth, replicates) = match self.replicates(question, self.jobs(question, most)) {
+        let (truth, replicates) = match self.replicates(question, self.plan.jobs(question, most)) {
             Ok(answers) => answers,
             Err(error) => return Finding::of(Verdict::Broken(error)),
         };
         let mut finding = judge(&truth, &replicates, &self.rules(question));
-        if let Ok((_, finer)) = self.replicates(question, self.finer_jobs(question)) {
+        if let Ok((_, finer)) = self.replicates(question, self.plan.finer_jobs(question)) {
             let before = finding.replicates.iter().map(|(_, ratio)| ratio - 1.0);
             let after = finer
                 .iter()
@@ -336,7 +291,7 @@ impl Suite {
     /// with one that cannot be read, are shown without.
     pub fn run_for_page<'a>(&self, report: &'a Report) -> Run<'a> {
         let mean = |question: &&'static Question| {
-            let jobs = self.jobs(question, self.plan.tier.most());
+            let jobs = self.plan.jobs(question, self.plan.tier.most());
             let (truth, replicates) = self.replicates(question, jobs).ok()?;
             let mean = replicate::mean(&replicates, truth.pixels)?;
             Some((question.name.to_owned(), mean))

@@ -1,4 +1,5 @@
-//! Pictures that are known without rendering them, in double precision.
+//! Pictures that are known: without rendering them, in double precision, or, where there is no closed form, as references with a
+//! standard error.
 
 pub mod absorption;
 #[cfg(test)]
@@ -13,6 +14,8 @@ pub mod irradiance;
 pub mod mirror_room;
 pub mod pixels;
 pub mod polygon_lights;
+pub mod reference;
+pub mod rough_metal;
 pub mod sky;
 pub mod slab;
 pub mod thin_lens;
@@ -24,14 +27,22 @@ pub struct Picture {
     pub pixels: u32,
     /// The means.
     pub means: Vec<f64>,
+    /// The standard error of the mean of all, as a share of it; 0 where all is known.
+    pub error: f64,
 }
 
 impl Picture {
     /// The same everywhere.
     pub fn even(pixels: u32, value: f64) -> Self {
+        Self::exact(pixels, vec![value; (pixels * pixels) as usize])
+    }
+
+    /// Of means that are known.
+    pub fn exact(pixels: u32, means: Vec<f64>) -> Self {
         Self {
             pixels,
-            means: vec![value; (pixels * pixels) as usize],
+            means,
+            error: 0.0,
         }
     }
 
@@ -40,20 +51,14 @@ impl Picture {
     pub fn of(pixels: u32, value: impl Fn(f64, f64) -> f64) -> Self {
         let at = |index: u32| [index % pixels, index / pixels];
         let means = (0..pixels * pixels).map(|i| pixels::mean([pixels; 2], at(i), &value));
-        Self {
-            pixels,
-            means: means.collect(),
-        }
+        Self::exact(pixels, means.collect())
     }
 
     /// As [`Picture::of`], with parts × parts in each pixel: for functions with kinks.
     pub fn of_parts(pixels: u32, parts: u32, value: impl Fn(f64, f64) -> f64) -> Self {
         let at = |index: u32| [index % pixels, index / pixels];
         let mean = |i| pixels::mean_of_cells([pixels; 2], at(i), parts, &value);
-        Self {
-            pixels,
-            means: (0..pixels * pixels).map(mean).collect(),
-        }
+        Self::exact(pixels, (0..pixels * pixels).map(mean).collect())
     }
 
     /// The brightest pixel.

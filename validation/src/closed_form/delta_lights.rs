@@ -5,6 +5,7 @@
 
 use super::light::{known, rgb};
 use crate::claim::Claim;
+use etalon_conform::scene::Falloff;
 use etalon_conform::truth::delta_lights::{fall_off, inverse_square, parallel};
 use etalon_conform::truth::pixels;
 use etalon_render::judge::ExactImage;
@@ -27,8 +28,9 @@ pub fn spot(claim: &Claim, size: [u32; 2]) -> Result<ExactImage, String> {
     let at = position(claim)?;
     let target = [claim.number("target_x")?, claim.number("target_y")?];
     let angles = [claim.number("beam")?, claim.number("cutoff")?];
-    let irradiance =
-        |x: f64, y: f64| fall_off(at, target, angles, [x, y]) * inverse_square(at, [x, y]);
+    let irradiance = |x: f64, y: f64| {
+        fall_off(Falloff::LinearInAngle, at, target, angles, [x, y]) * inverse_square(at, [x, y])
+    };
     picture(claim, size, claim.number("intensity")?, irradiance)
 }
 

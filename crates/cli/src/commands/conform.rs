@@ -3,6 +3,7 @@
 use super::{answer, fail, note};
 use crate::args::{AskedArgs, ConformArgs, ConformCommand, ConformExportArgs, ConformRunArgs};
 use crate::interrupt;
+use etalon_conform::badge::badge;
 use etalon_conform::driver::{Driver, Programs};
 use etalon_conform::page::{Run, page};
 use etalon_conform::plan::{Plan, STRICT_BOUND};
@@ -230,17 +231,26 @@ fn judge(folder: &Path, program: Option<&str>) -> Result<ExitCode, String> {
     Ok(answer(&report.table(), code))
 }
 
-/// The files of a run's report and its page; neither is one of those that were read.
-fn places(folder: &Path, read: Option<&PathBuf>) -> Result<[Destination; 2], String> {
+/// The files of a run's report, its page and its badge; none is one of those that were read.
+fn places(folder: &Path, read: Option<&PathBuf>) -> Result<[Destination; 3], String> {
     let mut guard = WriteGuard::of(read);
-    let report = guard.claim(&folder.join("report.json"))?;
-    Ok([report, guard.claim(&folder.join("index.html"))?])
+    let mut claim = |name: &str| guard.claim(&folder.join(name));
+    Ok([
+        claim("report.json")?,
+        claim("index.html")?,
+        claim("badge.svg")?,
+    ])
 }
 
-/// Writes the report of a run, and its page.
-fn keep(suite: &Suite, report: &Report, [json, html]: &[Destination; 2]) -> Result<(), String> {
+/// Writes them.
+fn keep(
+    suite: &Suite,
+    report: &Report,
+    [json, html, svg]: &[Destination; 3],
+) -> Result<(), String> {
     json.write_text(&report.to_json())?;
-    html.write_text(&page(&[suite.run_for_page(report)]))
+    html.write_text(&page(&[suite.run_for_page(report)]))?;
+    svg.write_text(&badge(report))
 }
 
 /// Several reports on one page, with the pictures of those that lie in the folder of their run.

@@ -72,6 +72,7 @@ fn a_run_is_judged_kept_and_compared() {
     let page = String::from_utf8(workshop.read("both.html")).expect("text");
     assert!(page.contains("point-light-unit") && page.contains("Twice"));
     assert!(workshop.path("sound/index.html").is_file());
+    assert!(workshop.path("sound/badge.svg").is_file());
     let ran = run(&[
         "--driver",
         "twice.toml",

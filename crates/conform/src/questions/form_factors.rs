@@ -65,8 +65,5 @@ pub(super) fn by_pixel(mean: impl Fn(Ends, Ends) -> f64) -> Picture {
         let top = 1.0 - pixel * f64::from(i / PIXELS);
         mean([left, left + pixel], [top - pixel, top])
     };
-    Picture {
-        pixels: PIXELS,
-        means: (0..PIXELS * PIXELS).map(at).collect(),
-    }
+    Picture::exact(PIXELS, (0..PIXELS * PIXELS).map(at).collect())
 }

@@ -114,10 +114,7 @@ fn corridor() -> (Scene, Picture) {
         let share = part(i % PIXELS, thrice);
         reflectance.powi(3) * (share + (1.0 - share) * reflectance)
     };
-    let truth = Picture {
-        pixels: PIXELS,
-        means: (0..PIXELS * PIXELS).map(at).collect(),
-    };
+    let truth = Picture::exact(PIXELS, (0..PIXELS * PIXELS).map(at).collect());
     (scene, truth)
 }
 

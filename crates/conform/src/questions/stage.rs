@@ -3,6 +3,7 @@
 use crate::scene::{
     Camera, Light, Material, Medium, Object, Projection, Scene, Shape, Sky, Triple, VERSION,
 };
+use etalon_math::float64::{cos, sin};
 
 /// Rows and columns of the pictures.
 pub(super) const PIXELS: u32 = 16;
@@ -83,6 +84,18 @@ pub(super) fn down([x, y, z]: Triple, width: f64) -> Camera {
         origin_m: [x, y, z + 0.2],
         target_m: [x, y, z],
         up: [0.0, 1.0, 0.0],
+        projection: Projection::Orthographic { width_m: width },
+    }
+}
+
+/// Parallel rays at this angle from the vertical, coming down along −x, over a square of this width about the origin. Up in the
+/// picture is −x, and to the right +y.
+pub(super) fn leaning(degrees: f64, width: f64) -> Camera {
+    let angle = degrees.to_radians();
+    Camera {
+        origin_m: [2.0 * sin(angle), 0.0, 2.0 * cos(angle)],
+        target_m: [0.0; 3],
+        up: [0.0, 0.0, 1.0],
         projection: Projection::Orthographic { width_m: width },
     }
 }

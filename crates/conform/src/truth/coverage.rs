@@ -18,10 +18,7 @@ pub fn rectangle(pixels: u32, [left, right]: [f64; 2], [bottom, top]: [f64; 2]) 
     let columns = [left, right].map(|x| half * (1.0 + x));
     let rows = [top, bottom].map(|y| half * (1.0 - y));
     let at = |i: u32| part(i % pixels, columns) * part(i / pixels, rows);
-    Picture {
-        pixels,
-        means: (0..pixels * pixels).map(at).collect(),
-    }
+    Picture::exact(pixels, (0..pixels * pixels).map(at).collect())
 }
 
 #[cfg(test)]

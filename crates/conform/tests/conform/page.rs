@@ -1,5 +1,6 @@
 //! The page of made-up reports: nothing is missing, nothing is fetched, and nothing that a program says becomes markup.
 
+use etalon_conform::badge::badge;
 use etalon_conform::driver::PictureFormat;
 use etalon_conform::judge::{Finding, Verdict};
 use etalon_conform::mode::Mode;
@@ -81,10 +82,7 @@ fn with_pictures(report: &Report) -> Run<'_> {
         let (_, truth) = (questions::by_name(&row.question)?.ask)();
         let means =
             (truth.means.iter().enumerate()).map(|(i, x)| x * (1.0 + 0.001 * (i % 16) as f64));
-        let mean = Picture {
-            pixels: truth.pixels,
-            means: means.collect(),
-        };
+        let mean = Picture::exact(truth.pixels, means.collect());
         (!row.finding.replicates.is_empty()).then_some((row.question.clone(), mean))
     };
     Run {
@@ -347,4 +345,21 @@ fn pictures_come_from_the_folder() {
     sound(&html);
     assert_eq!(html.matches("data:image/png;base64,").count(), 3);
     assert!(html.contains("--tier quick"));
+}
+
+#[test]
+fn a_badge_counts_what_was_asked() {
+    let report = report("A < B", "a", 0);
+    let svg = badge(&report);
+    let document = roxmltree::Document::parse(&svg).expect("SVG is XML");
+    let texts: Vec<&str> = (document.descendants())
+        .filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")))
+        .filter_map(|node| node.text())
+        .collect();
+    let of = |kind: usize| (questions::ALL.len() + 4 - kind) / 5;
+    let expressed = questions::ALL.len() - of(3);
+    let expected = format!("{} of {expressed} within 0.5 %, {} differ", of(0), of(1));
+    assert_eq!(texts, ["etalon conform", &expected[..]]);
+    let title = document.root_element().attribute("aria-label");
+    assert!(title.is_some_and(|title| title.starts_with("A < B 3.9.1: ")));
 }

