@@ -1,6 +1,6 @@
-//! Files in: Mitsuba XML, OBJ, PLY, Mitsuba's serialized meshes.
+//! Files in: Mitsuba XML, pbrt-v4, OBJ, PLY, Mitsuba's serialized meshes.
 //!
-//! [`mitsuba`] turns a scene file into the description tree; [`FileAssets`] finds and reads the
+//! [`mitsuba`] turns a scene file into the description tree, [`pbrt`] one of pbrt into entities with their parameters; [`FileAssets`] finds and reads the
 //! files that a scene refers to. Nothing here trusts a file: sizes are checked before memory is
 //! asked for, and a broken file is a message, never a panic.
 
@@ -10,6 +10,7 @@ mod mesh_error;
 pub mod mitsuba;
 mod nan;
 pub mod obj;
+pub mod pbrt;
 pub mod ply;
 mod polygon;
 mod search_path;

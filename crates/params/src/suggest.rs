@@ -3,15 +3,19 @@
 /// The candidate nearest to `word` by edit distance (insert, delete, replace, swap of
 /// neighbours), if it is near enough to be a plausible slip: at most a third of its length.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let length = word.chars().count();
+    let most = |c: &str| (c.chars().count().max(length) / 3).max(1);
     candidates
         .into_iter()
+        // The distance is at least the difference in length, and takes time and memory in proportion to both lengths.
+        .filter(|c| c.chars().count().abs_diff(length) <= most(c))
         .map(|c| {
             (
                 strsim::osa_distance(&word.to_lowercase(), &c.to_lowercase()),
                 c,
             )
         })
-        .filter(|(d, c)| *d <= (c.chars().count().max(word.chars().count()) / 3).max(1))
+        .filter(|(d, c)| *d <= most(c))
         .min_by_key(|(d, _)| *d)
         .map(|(_, c)| c)
 }

@@ -26,7 +26,7 @@ mod spectrum_file;
 mod substitute;
 mod syntax;
 mod tags;
-mod transform;
+pub(crate) mod transform;
 mod upgrade;
 mod value;
 mod version;
