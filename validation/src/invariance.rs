@@ -209,7 +209,7 @@ fn linear(claim: &Claim, estimator: &Estimator, loaded: &Loaded) -> Result<Compi
     );
     let refused = "the scene could not be compiled with a linear scan";
     let document = read.document.ok_or(refused)?;
-    let assets = FileAssets::new(document.search.clone());
+    let assets = FileAssets::of(&document);
     let diagnostics = Diagnostics::silent_about(&read.stand_ins);
     let options = CompileOptions {
         accelerator: AcceleratorKind::Linear,

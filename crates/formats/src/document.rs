@@ -2,6 +2,7 @@
 
 use crate::SearchPath;
 use etalon_params::{Diagnostic, Node, Severity, Sources, Span};
+use etalon_transport::MeshData;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -39,6 +40,13 @@ pub struct Document {
     /// The parameters that the scene lets one choose (Mitsuba's `<default>`s), in the order of the file, with the values that count:
     /// those of the command line beat them.
     pub parameters: Vec<(String, String)>,
+    /// Meshes that stand in the scene file itself: a `ply` has [`mesh_name`] for the name of its file.
+    pub meshes: Vec<Arc<MeshData>>,
+}
+
+/// The name of a mesh in [`Document::meshes`], for shapes and messages.
+pub fn mesh_name(index: usize) -> String {
+    format!("mesh {index} of the scene file")
 }
 
 /// What came of reading a scene.

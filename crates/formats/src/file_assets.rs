@@ -1,6 +1,7 @@
 //! The files of a scene, looked up along its search path.
 
-use crate::{SearchPath, obj, open_bounded, ply, read_bounded, serialized};
+use crate::document::{Document, mesh_name};
+use crate::{SearchPath, gzip, obj, open_bounded, ply, read_bounded, serialized};
 use etalon_transport::{AssetError, Assets, MeshData, MeshFormat};
 use std::collections::{BTreeSet, HashMap};
 use std::io::{Read, Seek};
@@ -24,6 +25,8 @@ const MOST_CACHED: usize = 64 << 20;
 pub struct FileAssets {
     search: SearchPath,
     limit: u64,
+    /// Those that are no files: [`Document::meshes`], by their names.
+    meshes: HashMap<String, Arc<MeshData>>,
     state: Mutex<State>,
 }
 
@@ -41,7 +44,18 @@ impl FileAssets {
         Self {
             search,
             limit: MOST_BYTES,
+            meshes: HashMap::new(),
             state: Mutex::default(),
+        }
+    }
+
+    /// What a scene needs: files along its search path, and the meshes in its description.
+    pub fn of(document: &Document) -> Self {
+        let meshes = document.meshes.iter().enumerate();
+        let meshes = meshes.map(|(index, mesh)| (mesh_name(index), Arc::clone(mesh)));
+        Self {
+            meshes: meshes.collect(),
+            ..Self::new(document.search.clone())
         }
     }
 
@@ -122,11 +136,19 @@ impl Assets for FileAssets {
     }
 
     fn mesh(&self, format: MeshFormat, name: &str) -> Result<MeshData, AssetError> {
+        if let Some(mesh) = self.meshes.get(name) {
+            return Ok((**mesh).clone());
+        }
         let path = self.find(name)?;
         if let MeshFormat::Serialized { shape_index } = format {
             return self.serialized(name, &path, shape_index);
         }
         let bytes = self.read(name, &path)?;
+        // pbrt's scenes have compressed PLY files.
+        let bytes = gzip::plain(bytes, self.limit).map_err(|reason| AssetError {
+            message: format!("cannot read `{name}`: {reason}"),
+            help: None,
+        })?;
         let mesh = match format {
             MeshFormat::Obj => obj::parse(&bytes),
             _ => ply::parse(&bytes),

@@ -1,11 +1,12 @@
 //! Files in: Mitsuba XML, pbrt-v4, OBJ, PLY, Mitsuba's serialized meshes.
 //!
-//! [`mitsuba`] turns a scene file into the description tree, [`pbrt`] one of pbrt into entities with their parameters; [`FileAssets`] finds and reads the
+//! [`mitsuba`] turns a scene file into the description tree, [`pbrt`] does the same with one of pbrt; [`FileAssets`] finds and reads the
 //! files that a scene refers to. Nothing here trusts a file: sizes are checked before memory is
 //! asked for, and a broken file is a message, never a panic.
 
 mod document;
 mod file_assets;
+mod gzip;
 mod mesh_error;
 pub mod mitsuba;
 mod nan;
@@ -17,7 +18,7 @@ mod search_path;
 pub mod serialized;
 mod unused;
 
-pub use document::{Document, ReadOptions, ReadOutcome, SourceFile};
+pub use document::{Document, ReadOptions, ReadOutcome, SourceFile, mesh_name};
 pub use file_assets::FileAssets;
 pub use mesh_error::{MeshError, Place};
 pub use search_path::SearchPath;
@@ -26,6 +27,15 @@ use etalon_images::lfs_pointer;
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
+
+/// Reads a scene in the language that the name of its file tells: pbrt's for `.pbrt` and `.pbrt.gz`, else Mitsuba's XML.
+pub fn read(path: &Path, options: &ReadOptions) -> ReadOutcome {
+    let name = path.to_string_lossy().to_ascii_lowercase();
+    match name.ends_with(".pbrt") || name.ends_with(".pbrt.gz") {
+        true => pbrt::read(path, options),
+        false => mitsuba::read(path, options),
+    }
+}
 
 /// The bytes of a regular file of at most `limit` bytes, or why they cannot be had.
 pub(crate) fn read_bounded(path: &Path, limit: u64) -> Result<Vec<u8>, String> {

@@ -31,6 +31,7 @@ pub mod set;
 mod sky;
 mod sky_image;
 pub mod spot;
+mod spot_profile;
 pub mod sunsky;
 pub mod tree;
 

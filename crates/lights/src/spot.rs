@@ -2,22 +2,18 @@
 //!
 //! ```text
 //! I(θ) = I₀ · t(u, v) · f(θ)
-//! f(θ) = 1 for θ ≤ b,   (c − θ)/(c − b) for b < θ < c,   0 beyond
 //! ```
 //!
-//! with b the beam width and c the cutoff angle; the edge is sharp if b ≥ c. The optional texture is projected along the
+//! with f as in [`crate::spot_profile`]. The optional texture is projected along the
 //! axis: a direction (x, y, z) of the light's space sees u = ½ + x/(2 z tan c),
-//! v = ½ + y/(2 z tan c). Without texture the power is
-//!
-//! ```text
-//! Φ = 2π I₀ [1 − (sin c − sin b)/(c − b)]
-//! ```
+//! v = ½ + y/(2 z tan c), c the cutoff angle. Without texture the power is I₀ ∫ f dω.
 
 use crate::light::{anywhere, extent_of_point};
 use crate::light_model::LightModel;
 use crate::pose::{Pose, emit_from_point, extent_of_way, sample_point};
+use crate::spot_profile::SpotProfile;
 use crate::{BoundingSphere, LightExtent};
-use etalon_math::{Animated, DirectionCone, float, float64};
+use etalon_math::{Animated, DirectionCone, float64};
 use etalon_params::{Class, Params, Value};
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
@@ -34,20 +30,13 @@ pub struct SpotLight {
     pose: Animated<Pose>,
     intensity: TextureId,
     texture: Option<TextureId>,
-    beam: f32,
-    cutoff: f32,
-    cos_cutoff: f32,
-    one_minus_cos_cutoff: f32,
-    /// 1/(c − b); zero if the edge is sharp.
-    inverse_transition: f32,
+    profile: SpotProfile,
     /// 1/(2 tan c).
     projection: f32,
-    /// ∫ f dω (sr).
-    solid_angle: f64,
 }
 
 impl SpotLight {
-    /// Reads `intensity`, `cutoff_angle`, `beam_width`, `texture` and `to_world`.
+    /// Reads `intensity`, `cutoff_angle`, `beam_width`, `falloff`, `texture` and `to_world`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         refuse_varying(params, "intensity", build);
         let intensity = build.texture(params, "intensity", Some(1.0), SpectrumKind::Emission);
@@ -82,51 +71,22 @@ impl SpotLight {
             "a finite number of degrees not below 0",
             |b| b >= 0.0 && b.is_finite(),
         );
-        let pose = Pose::animated(params, build)?;
-        Some(Self::new(pose, intensity, texture, beam, cutoff))
-    }
-
-    /// A spot light with angles in degrees.
-    fn new(
-        pose: Animated<Pose>,
-        intensity: TextureId,
-        texture: Option<TextureId>,
-        beam: f64,
-        cutoff: f64,
-    ) -> Self {
-        let (b, c) = (beam.to_radians(), cutoff.to_radians());
-        let half_sine = float64::sin(0.5 * c);
-        let slope = if c > b {
-            (float64::sin(c) - float64::sin(b)) / (c - b)
-        } else {
-            float64::cos(c)
-        };
-        Self {
-            pose,
+        Some(Self {
+            profile: SpotProfile::from_params(params, beam, cutoff),
+            pose: Pose::animated(params, build)?,
             intensity,
             texture,
-            beam: b as f32,
-            cutoff: c as f32,
-            cos_cutoff: float64::cos(c) as f32,
-            one_minus_cos_cutoff: (2.0 * half_sine * half_sine) as f32,
-            inverse_transition: if c > b { (1.0 / (c - b)) as f32 } else { 0.0 },
-            projection: (0.5 / float64::tan(c)) as f32,
-            solid_angle: core::f64::consts::TAU * (1.0 - slope),
-        }
+            projection: (0.5 / float64::tan(cutoff.to_radians())) as f32,
+        })
     }
 
     /// Intensity (W·sr⁻¹·nm⁻¹) along a unit direction of the light's space.
     #[inline]
     fn intensity(&self, textures: &impl Textures, local: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        if !(local.z > self.cos_cutoff) {
+        let falloff = self.profile.at(local);
+        if falloff == 0.0 {
             return Vec4::ZERO;
         }
-        let angle = float::atan2(local.truncate().length(), local.z);
-        let falloff = if angle <= self.beam {
-            1.0
-        } else {
-            ((self.cutoff - angle) * self.inverse_transition).clamp(0.0, 1.0)
-        };
         let mut intensity =
             textures.spectrum(self.intensity, &anywhere(), wavelengths.lambda) * falloff;
         if let Some(texture) = self.texture {
@@ -139,8 +99,8 @@ impl SpotLight {
     /// The density of `direction` among those of particles (sr⁻¹).
     #[inline]
     pub fn direction_density(&self, direction: Vec3, time: f32) -> f32 {
-        if self.pose.at(time, |pose| pose.to_local(direction)).z > self.cos_cutoff {
-            uniform_cone_density(self.one_minus_cos_cutoff)
+        if self.pose.at(time, |pose| pose.to_local(direction)).z > self.profile.cos_cutoff {
+            uniform_cone_density(self.profile.one_minus_cos_cutoff)
         } else {
             0.0
         }
@@ -191,21 +151,24 @@ impl LightModel for SpotLight {
         u: Vec2,
         time: f32,
     ) -> Option<Emission> {
-        let local = square_to_uniform_cone(u, self.one_minus_cos_cutoff);
+        let local = square_to_uniform_cone(u, self.profile.one_minus_cos_cutoff);
         let intensity = self.intensity(textures, local, wavelengths);
-        let density = uniform_cone_density(self.one_minus_cos_cutoff);
+        let density = uniform_cone_density(self.profile.one_minus_cos_cutoff);
         Some(emit_from_point(&self.pose, local, intensity, density, time))
     }
 
     fn power(&self, textures: &(impl Textures + Shapes), _: &BoundingSphere) -> f64 {
         let texture = self.texture.map_or(1.0, |t| textures.mean(t));
-        self.solid_angle * f64::from(textures.mean(self.intensity) * texture)
+        self.profile.solid_angle * f64::from(textures.mean(self.intensity) * texture)
     }
 
     fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {
-        let (shines, cos_edge) = if self.cos_cutoff > 0.0 {
+        let (shines, cos_edge) = if self.profile.cos_cutoff > 0.0 {
             let axis = self.pose.start().to_world(Vec3::Z).as_dvec3().normalize();
-            (DirectionCone::along(axis), f64::from(self.cos_cutoff))
+            (
+                DirectionCone::along(axis),
+                f64::from(self.profile.cos_cutoff),
+            )
         } else {
             (DirectionCone::ALL, 0.0)
         };

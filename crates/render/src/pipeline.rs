@@ -12,8 +12,7 @@ use etalon_film::{
     ExactFilm, FilmSettings, Filter, Part, PixelFilter, RenderFacts, RenderedImage, SampleCounts,
     recorded_seconds,
 };
-use etalon_formats::FileAssets;
-use etalon_formats::{Document, ReadOptions, ReadOutcome, mitsuba};
+use etalon_formats::{Document, FileAssets, ReadOptions, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Progress, RenderPlan, RenderStatistics, ReplicateRange};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span, Value};
 use etalon_sampling::{ReplicateKind, SamplerKind};
@@ -28,7 +27,7 @@ use std::time::{Duration, Instant};
 /// Everything that is wrong with it, as far as one reading can find.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     let start = Instant::now();
-    let read = mitsuba::read(
+    let read = etalon_formats::read(
         path,
         &ReadOptions {
             defines: options.defines.clone(),
@@ -49,7 +48,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     let mut complete = true;
     if let Some(document) = document {
         let diagnostics = Diagnostics::silent_about(&stand_ins);
-        let assets = FileAssets::new(document.search.clone());
+        let assets = FileAssets::of(&document);
         let overruled = CompileOptions {
             light_chooser: options.light_chooser,
             accelerator: options.accelerator,

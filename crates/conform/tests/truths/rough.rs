@@ -105,7 +105,8 @@ fn hidden(w: DVec3, alpha: f64) -> f64 {
         let tangent = sin(a) / cos(a);
         let beyond = alpha * tangent * tangent;
         let s = mu + beyond;
-        let p = 0.5 * alpha * alpha / (alpha * alpha + s * s).powf(1.5);
+        let square = alpha * alpha + s * s;
+        let p = 0.5 * alpha * alpha / (square * square.sqrt());
         beyond * p * 2.0 * alpha * tangent / (cos(a) * cos(a))
     };
     (0..STEPS).map(term).sum::<f64>() * step / mu

@@ -1,10 +1,10 @@
-//! The Gaussian, cut off at four standard deviations and lowered to meet zero there.
+//! The Gaussian, cut off at four standard deviations or another radius, and lowered to meet zero there.
 //!
 //! ```text
-//! f(x) = exp(−x² / 2σ²) − exp(−r² / 2σ²)   for |x| < r = 4σ
+//! f(x) = exp(−x² / 2σ²) − exp(−r² / 2σ²)   for |x| < r, which is 4σ unless it is given
 //! ```
 //!
-//! Radius and offset are Mitsuba's (`gaussian`). Mitsuba evaluates a polynomial fitted to this
+//! Radius and offset are Mitsuba's (`gaussian`), and with a radius of its own pbrt's. Mitsuba evaluates a polynomial fitted to this
 //! function, which stays within 5·10⁻⁴ of it.
 
 use etalon_math::float64::exp;
@@ -13,6 +13,7 @@ use etalon_math::float64::exp;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gaussian {
     deviation: f64,
+    radius: f64,
     offset: f64,
 }
 
@@ -22,11 +23,20 @@ impl Gaussian {
     /// The radius in standard deviations.
     const CUT: f64 = 4.0;
 
-    /// A Gaussian, if its standard deviation is positive and its variance a normal number.
+    /// A Gaussian of Mitsuba's radius, if its standard deviation is positive and its variance a normal number.
     pub fn new(deviation: f64) -> Option<Self> {
-        (deviation > 0.0 && (deviation * deviation).is_normal()).then(|| Self {
+        Self::cut_at(deviation, Self::CUT * deviation)
+    }
+
+    /// A Gaussian that ends at a radius (pixels), if that is positive and not below a hundredth of the standard deviation, where nothing
+    /// but rounding would be left of it.
+    pub fn cut_at(deviation: f64, radius: f64) -> Option<Self> {
+        let end = radius / deviation;
+        let is_sound = deviation > 0.0 && (deviation * deviation).is_normal();
+        (is_sound && end >= 0.01 && radius.is_finite()).then(|| Self {
             deviation,
-            offset: exp(-0.5 * Self::CUT * Self::CUT),
+            radius,
+            offset: exp(-0.5 * end * end),
         })
     }
 
@@ -37,7 +47,12 @@ impl Gaussian {
 
     /// Radius (pixels).
     pub fn radius(self) -> f64 {
-        Self::CUT * self.deviation
+        self.radius
+    }
+
+    /// Whether the radius is one of its own.
+    pub(crate) fn is_cut(self) -> bool {
+        self.radius != Self::CUT * self.deviation
     }
 
     /// The value at `x` pixels from the centre.

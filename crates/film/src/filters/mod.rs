@@ -63,15 +63,14 @@ impl Filter {
             }
             "gaussian" => {
                 let deviation = params.float_or("stddev", Gaussian::DEFAULT_DEVIATION);
-                Gaussian::new(deviation).map_or_else(
-                    || {
-                        refused(
-                            params,
-                            "stddev",
-                            deviation,
-                            "a standard deviation above 0 (pixels)",
-                        )
-                    },
+                let Some(whole) = Gaussian::new(deviation) else {
+                    let accepted = "a standard deviation above 0 (pixels)";
+                    return refused(params, "stddev", deviation, accepted);
+                };
+                let radius = params.float_or("radius", whole.radius());
+                let accepted = "a radius (pixels) of at least a hundredth of `stddev`";
+                Gaussian::cut_at(deviation, radius).map_or_else(
+                    || refused(params, "radius", radius, accepted),
                     Self::Gaussian,
                 )
             }
@@ -159,7 +158,13 @@ impl std::fmt::Display for Filter {
         match self {
             Self::Box(_) | Self::CatmullRom(_) => Ok(()),
             Self::Tent(tent) => write!(f, " radius={}", tent.radius()),
-            Self::Gaussian(gaussian) => write!(f, " stddev={}", gaussian.deviation()),
+            Self::Gaussian(gaussian) => {
+                write!(f, " stddev={}", gaussian.deviation())?;
+                match gaussian.is_cut() {
+                    true => write!(f, " radius={}", gaussian.radius()),
+                    false => Ok(()),
+                }
+            }
             Self::Mitchell(mitchell) => {
                 let [b, c] = mitchell.parameters();
                 write!(f, " B={b} C={c}")

@@ -79,5 +79,6 @@ fn document(reader: &mut Reader<'_>, path: &Path) -> Option<Document> {
         search,
         files: std::mem::take(&mut reader.files),
         parameters: reader.parameters.values(),
+        meshes: Vec::new(),
     })
 }

@@ -14,6 +14,12 @@ pub(crate) struct Kinds {
 }
 
 impl Kinds {
+    /// The types.
+    #[cfg(test)]
+    pub(crate) fn names(&self) -> &'static [&'static str] {
+        self.names
+    }
+
     /// The type of a name, or that there is none.
     pub(crate) fn find(&self, name: &Spanned<String>) -> Result<&'static str, Diagnostic> {
         let word = name.value.as_str();

@@ -7,7 +7,7 @@
 //!
 //! A file passes through it in this order: `source_text` makes it a text, `tokens` its tokens, `statement` a directive with its
 //! arguments, of which `parameter_syntax` reads the parameters; `directive` lists what is then done, and `finish` looks at the
-//! whole.
+//! whole. [`read`] goes on from there: `tree` turns the entities into the description tree.
 //!
 //! It is stricter than pbrt, which overlooks some mistakes: parameters that nobody asked for or that are given twice, unknown
 //! coordinate systems, and parameters of textures. It is more tolerant in one point: names may be used before they are defined, as
@@ -40,10 +40,12 @@ mod statement;
 #[cfg(test)]
 mod tests;
 mod tokens;
+mod tree;
 mod value_syntax;
 mod world;
 
-use etalon_params::{Diagnostic, Severity, Sources};
+use crate::document::{ReadOptions, ReadOutcome};
+use etalon_params::{Diagnostic, Diagnostics, Severity, Sources};
 pub use options::Options;
 pub use parameter::{ColorSpace, Parameter, ParameterList, ParameterType, Values};
 pub use parameters::Parameters;
@@ -91,6 +93,44 @@ impl Parsed {
     pub fn lines(&self) -> String {
         let lines = self.diagnostics.iter().map(|d| d.one_line(&self.sources));
         lines.collect::<Vec<String>>().join("\n")
+    }
+}
+
+/// Reads the scene file at `path`, as [`parse`] does, and turns it into the description tree, as [`crate::mitsuba::read`] does with
+/// Mitsuba's files. After a mistake there is no document, as most entities depend on others.
+pub fn read(path: &Path, options: &ReadOptions) -> ReadOutcome {
+    let search = options.search.clone();
+    mapped(parse(path, &ParseOptions { search }), options)
+}
+
+/// The same of a text; files that it names are looked for in the current folder first.
+pub fn read_text(name: &str, text: &str, options: &ReadOptions) -> ReadOutcome {
+    let search = options.search.clone();
+    mapped(parse_text(name, text, &ParseOptions { search }), options)
+}
+
+fn mapped(parsed: Parsed, options: &ReadOptions) -> ReadOutcome {
+    let diagnostics = Diagnostics::new();
+    let mut sources = parsed.sources.clone();
+    let integrator = options.integrator.as_ref();
+    let integrator = integrator.map(|name| sources.add("--integrator", name.as_str()));
+    for (name, _) in &options.defines {
+        let message = format!("scenes of pbrt have no parameters: `{name}` cannot be set by `-D`");
+        diagnostics.push(Diagnostic::error_nowhere(message));
+    }
+    let document = parsed
+        .sound()
+        .map(|scene| tree::document(scene, options, integrator, &diagnostics));
+    parsed
+        .diagnostics
+        .into_iter()
+        .for_each(|d| diagnostics.push(d));
+    let is_sound = !diagnostics.has_errors();
+    ReadOutcome {
+        sources,
+        diagnostics: diagnostics.into_sorted(),
+        document: document.filter(|_| is_sound),
+        stand_ins: Vec::new(),
     }
 }
 

@@ -68,6 +68,29 @@ pub fn parse(bytes: &[u8]) -> Result<MeshData, MeshError> {
     Ok(mesh)
 }
 
+/// What the vertices of a file carry beside their positions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Carried {
+    /// Whether they have normals.
+    pub(crate) normals: bool,
+    /// Whether they, or the corners of faces, have texture coordinates.
+    pub(crate) uvs: bool,
+}
+
+/// What the vertices of a file carry, by its header; what follows that may be missing.
+pub(crate) fn carried(bytes: &[u8]) -> Result<Carried, MeshError> {
+    let header = Header::parse(bytes)?;
+    let element = |name: &str| header.elements.iter().find(|element| element.name == name);
+    let has = |name: &str, all: &[&str]| {
+        let found = |element: &Element| all.iter().all(|name| element.find(name).is_some());
+        element(name).is_some_and(found)
+    };
+    Ok(Carried {
+        normals: has("vertex", &["nx", "ny", "nz"]),
+        uvs: UV_NAMES.iter().any(|names| has("vertex", names)) || has("face", &["texcoord"]),
+    })
+}
+
 fn no_faces(header: &Header) -> String {
     let elements: Vec<String> = (header.elements.iter().take(8))
         .map(|e| format!("{} `{}`", e.count, e.name))

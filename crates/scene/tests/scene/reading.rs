@@ -30,7 +30,7 @@ pub(crate) fn read_with(scene: &str, files: &[(&str, &str)]) -> Read {
     let sound = !read.has_errors();
     let mut messages = read.diagnostics.clone();
     let compiled = read.document.as_ref().and_then(|document| {
-        let assets = FileAssets::new(document.search.clone());
+        let assets = FileAssets::of(document);
         etalon_scene::compile(&document.root, &assets, &diagnostics)
     });
     messages.extend(diagnostics.into_sorted());

@@ -1,0 +1,154 @@
+//! Lights that are no surfaces (`lights.cpp`).
+//!
+//! | pbrt | Etalon | the spectrum times |
+//! |---|---|---|
+//! | point | `point` | scale, and Φ / 4π with a `power` Φ |
+//! | spot | `spot`, with the falloff smooth in the cosine | scale, and Φ / 2π[(1 − cos b) + (cos b − cos c)/2] |
+//! | distant | `directional`, from `from` to `to` | scale, and E with an `illuminance` E |
+//! | infinite | `constant` | scale, and E / π |
+//!
+//! Spectra are divided by their luminance, see `spectra`. c is `coneangle`, b is `conedeltaangle` less.
+
+use super::super::parameters::Parameters;
+use super::super::scene::Light;
+use super::Mapper;
+use super::area_light::light_scale;
+use super::node::{Draft, Given, given, vector, word};
+use super::spectra::Role;
+use etalon_math::float64;
+use etalon_params::{Class, DMat4, DVec3, Node, Value};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+impl<'a> Mapper<'a> {
+    /// A light; `None` after a mistake.
+    pub(crate) fn light(&mut self, light: &'a Light) -> Option<Arc<Node>> {
+        let params = self.read(&light.entity);
+        let params = &params;
+        let to_world = self.still(&light.placement, "lights", params.entity.span);
+        let found = match params.entity.kind {
+            "point" => self.point(params, to_world),
+            "spot" => self.spot(params, to_world),
+            "distant" => self.distant(params, to_world),
+            "infinite" => self.infinite(params),
+            _ => {
+                let accepted = "point, spot, distant, infinite, and area lights";
+                self.refuse(params, "light", accepted);
+                return None;
+            }
+        };
+        let medium = light.medium.map(|medium| self.medium(medium));
+        params.finish();
+        let draft = found?;
+        Some(match medium {
+            // What is infinitely far away is in no medium.
+            Some(medium) if ["point", "spot"].contains(&params.entity.kind) => {
+                draft.child(medium?).node()
+            }
+            _ => draft.node(),
+        })
+    }
+
+    /// The spectrum `name` times a factor, white if it is not given; `None` after a mistake.
+    fn light_spectrum(
+        &mut self,
+        params: &Parameters<'a>,
+        name: &str,
+        factor: f64,
+    ) -> Option<Given> {
+        let value = match params.spectrum(name) {
+            None if params.has(name) => return None,
+            None => Self::white_light(factor),
+            Some(value) => self.spectrum(params, name, value, Role::Emission(factor))?,
+        };
+        Some(given(value, params.span(name)))
+    }
+
+    fn point(&mut self, params: &Parameters<'a>, to_world: DMat4) -> Option<Draft> {
+        let factor = light_scale(params) * quotient(params.float("power", -1.0), 4.0 * PI);
+        let position = to_world.transform_point3(params.point3("from", DVec3::ZERO));
+        let intensity = self.light_spectrum(params, "I", factor)?;
+        let draft = Draft::of(params, Class::Emitter, "point");
+        let draft = draft.from(params, "from", "position", vector(position));
+        Some(draft.given("intensity", intensity))
+    }
+
+    fn spot(&mut self, params: &Parameters<'a>, to_world: DMat4) -> Option<Draft> {
+        let degrees = "degrees above 0, at most 180";
+        let cone = params.float_where("coneangle", 30.0, degrees, |c| c > 0.0 && c <= 180.0);
+        let delta = params.float_where(
+            "conedeltaangle",
+            5.0,
+            "degrees from 0 to `coneangle`",
+            |d| (0.0..=cone).contains(&d),
+        );
+        let from = params.point3("from", DVec3::ZERO);
+        let to = params.point3("to", DVec3::Z);
+        let [end, start] = [cone, cone - delta].map(|angle| float64::cos(angle.to_radians()));
+        let solid_angle = TAU * ((1.0 - start) + 0.5 * (start - end));
+        let factor = light_scale(params) * quotient(params.float("power", -1.0), solid_angle);
+        let intensity = self.light_spectrum(params, "I", factor)?;
+        let Some(axis) = (to - from).try_normalize() else {
+            params.error_at("to", "`from` and `to` of `spot` must differ");
+            return None;
+        };
+        let (x, y) = axis.any_orthonormal_pair();
+        let turned = DMat4::from_cols(
+            x.extend(0.0),
+            y.extend(0.0),
+            axis.extend(0.0),
+            from.extend(1.0),
+        );
+        let draft = Draft::of(params, Class::Emitter, "spot")
+            .plain("to_world", Value::Transform(to_world * turned))
+            .given("intensity", intensity)
+            .from(params, "coneangle", "cutoff_angle", Value::Float(cone))
+            .from(
+                params,
+                "conedeltaangle",
+                "beam_width",
+                Value::Float(cone - delta),
+            );
+        Some(draft.plain("falloff", word("smooth_in_cosine")))
+    }
+
+    fn distant(&mut self, params: &Parameters<'a>, to_world: DMat4) -> Option<Draft> {
+        let factor = light_scale(params) * quotient(params.float("illuminance", -1.0), 1.0);
+        let from = params.point3("from", DVec3::ZERO);
+        let to = params.point3("to", DVec3::Z);
+        let irradiance = self.light_spectrum(params, "L", factor)?;
+        // pbrt's z axis of the light is at right angles to two others, and is carried along as a vector.
+        let direction = to_world.transform_vector3(to - from).try_normalize();
+        let Some(direction) = direction else {
+            params.error_at("to", "`from` and `to` of `distant` must differ");
+            return None;
+        };
+        let draft = Draft::of(params, Class::Emitter, "directional");
+        let draft = draft.from(params, "to", "direction", vector(direction));
+        Some(draft.given("irradiance", irradiance))
+    }
+
+    fn infinite(&mut self, params: &Parameters<'a>) -> Option<Draft> {
+        let scale = light_scale(params);
+        let illuminance = params.float("illuminance", -1.0);
+        if params.has("portal") {
+            params.ignore(&["portal", "L"]);
+            self.refuse_value(params, "portal", "portals of infinite lights", "none");
+            return None;
+        }
+        if params.has("filename") {
+            params.ignore(&["filename", "L"]);
+            self.refuse_value(params, "filename", "images of infinite lights", "`L`");
+            return None;
+        }
+        let factor = scale * quotient(illuminance, PI);
+        let radiance = self.light_spectrum(params, "L", factor)?;
+        let draft = Draft::of(params, Class::Emitter, "constant");
+        Some(draft.given("radiance", radiance))
+    }
+}
+
+/// A quantity over what it is for a spectrum of luminance 1; 1 if it is not asked for.
+fn quotient(wanted: f64, unit: f64) -> f64 {
+    if wanted > 0.0 { wanted / unit } else { 1.0 }
+}

@@ -1,0 +1,130 @@
+//! Metals (`materials.cpp`, `ConductorMaterial`; `util/spectrum.cpp` for the names).
+//!
+//! The index is given by `eta` and `k`, by default those of copper, or follows from a `reflectance` r at normal incidence: η = 1 and
+//! k = 2√r / √(1 − r). Named metals are those of the same name in Etalon, whose tables are other measurements.
+
+use super::super::parameters::Parameters;
+use super::super::spectrum_value::{SpectrumOrTexture, SpectrumValue};
+use super::Mapper;
+use super::node::{Given, given, word};
+use super::spectra::{Role, computed, samples_of};
+use etalon_params::{Node, Span, SpectrumText, Value};
+use etalon_spectrum::conductors;
+use std::sync::Arc;
+
+/// The reflectance that counts for one of 1, as in pbrt.
+const MOST_REFLECTANCE: f64 = 0.9999;
+
+impl<'a> Mapper<'a> {
+    /// A metal whose parameters begin with `prefix`, rough or not; `None` after a mistake.
+    pub(crate) fn conductor(&mut self, params: &Parameters<'a>, prefix: &str) -> Option<Arc<Node>> {
+        let roughness = self.roughness(params, prefix);
+        let index = self.metal_index(params, prefix);
+        let draft = roughness?.model(params, "conductor");
+        let draft = match index? {
+            Metal::Named(name, span) => draft.given("material", given(word(name), span)),
+            Metal::Index(index) => {
+                let [eta, k] = *index;
+                draft.given("eta", eta).given("k", k)
+            }
+        };
+        // A coat is outside of a metal in it.
+        if prefix.is_empty() {
+            return Some(draft.node());
+        }
+        let outside = params.float("interface.eta", 1.5);
+        Some(
+            draft
+                .from(params, "interface.eta", "ext_eta", Value::Float(outside))
+                .node(),
+        )
+    }
+
+    fn metal_index(&mut self, params: &Parameters<'a>, prefix: &str) -> Option<Metal<'a>> {
+        let name = |last: &str| format!("{prefix}{last}");
+        let (eta, k) = (name("eta"), name("k"));
+        // It has no prefix in `coatedconductor`.
+        if params.has("reflectance") {
+            if params.has(&eta) || params.has(&k) {
+                let message = "`reflectance` cannot be given together with `eta` or `k`";
+                params.error_at("reflectance", message);
+                params.ignore(&["reflectance", &eta, &k]);
+                return None;
+            }
+            return self.metal_of_reflectance(params, "reflectance");
+        }
+        let given_eta = params.spectrum_texture(&eta);
+        let given_k = params.spectrum_texture(&k);
+        if (given_eta.is_none() && params.has(&eta)) || (given_k.is_none() && params.has(&k)) {
+            return None;
+        }
+        let own = [named_metal(given_eta, "-eta"), named_metal(given_k, "-k")];
+        if let [Some(a), Some(b)] = own
+            && a == b
+        {
+            self.metal(params, &eta, a)?;
+            return Some(Metal::Named(a, params.span(&eta)));
+        }
+        let mut part = |parameter: &str, own: Option<&'a str>, is_eta: bool| match own {
+            Some(metal) => {
+                let [eta, k] = self.metal(params, parameter, metal)?;
+                Some(given(if is_eta { eta } else { k }, params.span(parameter)))
+            }
+            None => self.colour(params, parameter, 0.0, Role::Unbounded),
+        };
+        let [own_eta, own_k] = own;
+        let (eta, k) = (part(&eta, own_eta, true), part(&k, own_k, false));
+        Some(Metal::Index(Box::new([eta?, k?])))
+    }
+
+    /// η and k of a metal of Etalon's.
+    fn metal(&self, params: &Parameters<'_>, parameter: &str, metal: &str) -> Option<[Value; 2]> {
+        let Some((eta, k)) = conductors::lookup(metal) else {
+            let what = format!("metal `{metal}`");
+            let accepted = "metal-Ag, metal-Al, metal-Au, metal-Cu (each with -eta and -k), or pairs of a wavelength and a value";
+            self.refuse_value(params, parameter, &what, accepted);
+            return None;
+        };
+        let sampled = |spectrum| {
+            let pairs = samples_of(spectrum).into_iter().map(|[nm, x]| (nm, x));
+            Value::Spectrum(SpectrumText::Samples(pairs.collect()))
+        };
+        Some([sampled(&eta), sampled(&k)])
+    }
+
+    fn metal_of_reflectance(&mut self, params: &Parameters<'a>, name: &str) -> Option<Metal<'a>> {
+        let SpectrumOrTexture::Value(value) = params.spectrum_texture(name)? else {
+            let what = format!("`{}` of a textured reflectance", params.entity.kind);
+            self.refuse_value(params, name, &what, "a spectrum or an rgb colour");
+            return None;
+        };
+        let curve = self.curve(params, name, value, Role::Reflectance)?;
+        let k = computed(&curve, |r| {
+            let r = r.clamp(0.0, MOST_REFLECTANCE);
+            2.0 * r.sqrt() / (1.0 - r).sqrt()
+        });
+        let span = params.span(name);
+        let one = Value::Spectrum(SpectrumText::Uniform(1.0));
+        let index = [given(one, span), given(k, span)];
+        Some(Metal::Index(Box::new(index)))
+    }
+}
+
+/// The index of a metal.
+enum Metal<'a> {
+    /// By name, with the place where it stands.
+    Named(&'a str, Span),
+    /// η and k.
+    Index(Box<[Given; 2]>),
+}
+
+/// The metal of a name such as `metal-Ag-eta`, which ends as asked; copper if nothing is given.
+fn named_metal<'a>(value: Option<SpectrumOrTexture<'a>>, end: &str) -> Option<&'a str> {
+    match value {
+        None => Some("Cu"),
+        Some(SpectrumOrTexture::Value(SpectrumValue::Named(name))) => {
+            name.strip_prefix("metal-")?.strip_suffix(end)
+        }
+        Some(_) => None,
+    }
+}

@@ -1,0 +1,113 @@
+//! Lights.
+
+use super::*;
+
+#[track_caller]
+fn assert_light(pbrt: &str, xml: &str) {
+    assert_same_world(pbrt, xml);
+}
+
+#[test]
+fn points_and_spots() {
+    assert_light(
+        r#"Translate 1 0 0 LightSource "point" "rgb I" [ 1 2 3 ] "float scale" 2 "point3 from" [ 0 5 0 ]"#,
+        r#"<emitter type="point"><point name="position" x="1" y="5" z="0"/><rgb name="intensity" value="2 4 6"/></emitter>"#,
+    );
+    // 4π lumens make an intensity of 1.
+    assert_light(
+        r#"LightSource "point" "float power" 12.566370614359172"#,
+        r#"<emitter type="point"><point name="position" x="0" y="0" z="0"/><float name="intensity" value="1"/></emitter>"#,
+    );
+    assert_light(
+        r#"LightSource "spot" "point3 from" [ 0 0 2 ] "point3 to" [ 0 0 5 ] "float coneangle" 40 "float conedeltaangle" 10"#,
+        r#"<emitter type="spot"><transform name="to_world"><rotate z="1" angle="0"/><translate z="2"/></transform>
+            <float name="intensity" value="1"/><float name="cutoff_angle" value="40"/><float name="beam_width" value="30"/>
+            <string name="falloff" value="smooth_in_cosine"/></emitter>"#,
+    );
+}
+
+#[test]
+fn light_from_far_away() {
+    assert_light(
+        r#"LightSource "distant" "point3 from" [ 0 3 4 ] "point3 to" [ 0 0 0 ] "float illuminance" 7"#,
+        r#"<emitter type="directional"><vector name="direction" x="0" y="-0.6" z="-0.8"/><float name="irradiance" value="7"/></emitter>"#,
+    );
+    assert_light(
+        r#"LightSource "infinite" "rgb L" [ 1 2 3 ] "float illuminance" 3.141592653589793"#,
+        r#"<emitter type="constant"><rgb name="radiance" value="1 2 3"/></emitter>"#,
+    );
+}
+
+#[test]
+fn spectra_are_divided_by_their_luminance() {
+    let constant = 2.0 / etalon_spectrum::cie::luminance(|_| 1.0);
+    assert_light(
+        r#"LightSource "infinite" "spectrum L" [ 300 5 900 5 ] "float scale" 2"#,
+        &format!(
+            r#"<emitter type="constant"><spectrum name="radiance" value="300:{constant}, 900:{constant}"/></emitter>"#
+        ),
+    );
+    assert_light(
+        r#"LightSource "infinite" "spectrum L" "stdillum-F11" "float scale" 2"#,
+        r#"<emitter type="constant"><spectrum type="illuminant" name="radiance"><string name="name" value="F11"/>
+            <float name="scale" value="2"/></spectrum></emitter>"#,
+    );
+    let document =
+        sound("WorldBegin LightSource \"infinite\" \"blackbody L\" 3000 \"float scale\" 4");
+    let light = children(&document.root).pop().expect("a light");
+    let Some(Value::Spectrum(SpectrumText::Samples(pairs))) =
+        light.properties.first().map(|p| &p.value)
+    else {
+        panic!("{}", shown(&light));
+    };
+    let (nm, values): (Vec<f64>, Vec<f64>) = pairs.iter().copied().unzip();
+    let spectrum = etalon_spectrum::Spectrum::tabulated(&nm, &values).expect("a spectrum");
+    assert!(
+        (spectrum.luminance() - 4.0).abs() < 1e-3,
+        "{}",
+        spectrum.luminance()
+    );
+}
+
+#[test]
+fn other_colour_spaces() {
+    let document =
+        sound("WorldBegin ColorSpace \"rec2020\" LightSource \"infinite\" \"rgb L\" [ 2 2 2 ]");
+    let light = children(&document.root).pop().expect("a light");
+    assert!(shown(&light).contains("radiance: rgb 2.000000e0 2.000000e0 2.000000e0"));
+}
+
+#[test]
+fn shapes_that_shine() {
+    let area = |shape: &str| {
+        let text =
+            format!("AreaLightSource \"diffuse\" \"rgb L\" [ 1 2 3 ] \"float scale\" 2 {shape}");
+        let outcome = world(&text);
+        assert_eq!(outcome.lines(), "");
+        let document = outcome.document.expect("a document");
+        let shape = children(&document.root).pop().expect("a shape");
+        shown(&children(&shape).pop().expect("an emitter")).replace("\n    ", " ")
+    };
+    assert_eq!(
+        area("Shape \"sphere\""),
+        "emitter area { radiance: rgb 2.000000e0 4.000000e0 6.000000e0\n}"
+    );
+    let text = r#"AreaLightSource "diffuse" "float power" 9.869604401089358
+        Shape "trianglemesh" "point3 P" [ 0 0 0  1 0 0  0 2 0 ]"#;
+    // A power of π² on an area of 1.
+    let outcome = world(text);
+    assert_eq!(outcome.lines(), "");
+    let root = outcome.document.expect("a document").root;
+    let shape = children(&root).pop().expect("a shape");
+    let light = shown(&children(&shape).pop().expect("an emitter"));
+    assert!(light.contains("radiance: float 3.141593e0"), "{light}");
+    let image = world(r#"AreaLightSource "diffuse" "string filename" "a.png" Shape "cylinder""#);
+    assert_eq!(image.lines(), "");
+    let root = image.document.expect("a document").root;
+    let light = shown(
+        &children(&children(&root).pop().expect("a shape"))
+            .pop()
+            .expect("an emitter"),
+    );
+    assert!(light.contains("radiance: texture d65 {"), "{light}");
+}

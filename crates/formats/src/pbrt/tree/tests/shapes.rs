@@ -1,0 +1,234 @@
+//! Shapes, objects and media.
+
+use super::*;
+
+/// The default material.
+const MATTE: &str = r#"<bsdf type="twosided"><bsdf type="diffuse"><float name="reflectance" value="0.5"/></bsdf></bsdf>"#;
+const FLIP: &str = r#"<boolean name="flip_normals" value="true"/>"#;
+const FLAT: &str = r#"<boolean name="face_normals" value="true"/>"#;
+
+#[track_caller]
+fn assert_shape(pbrt: &str, plugin: &str, own: &str) {
+    assert_same_world(
+        pbrt,
+        &format!("<shape type=\"{plugin}\">{own}{MATTE}</shape>"),
+    );
+}
+
+const SPHERE: &str = r#"Shape "sphere" "float radius" 2"#;
+const RADIUS: &str = r#"<float name="radius" value="2"/>"#;
+const MIRRORED: &str = r#"<transform name="to_world"><scale x="-1"/></transform>"#;
+
+#[test]
+fn spheres_turn_by_themselves() {
+    assert_shape(SPHERE, "sphere", RADIUS);
+    let mirrored = format!("Scale -1 1 1 {SPHERE}");
+    assert_shape(&mirrored, "sphere", &format!("{RADIUS}{MIRRORED}"));
+    let both = format!("ReverseOrientation {mirrored}");
+    assert_shape(&both, "sphere", &format!("{RADIUS}{MIRRORED}{FLIP}"));
+}
+
+#[test]
+fn disks_and_cylinders_are_turned() {
+    let raised = r#"<transform name="to_world"><scale x="2" y="2"/><translate z="3"/></transform>"#;
+    let disk = r#"Shape "disk" "float radius" 2 "float height" 3"#;
+    assert_shape(disk, "disk", raised);
+    let mirrored = r#"<transform name="to_world"><scale x="2" y="2"/><translate z="3"/><scale x="-1"/></transform>"#;
+    assert_shape(
+        &format!("Scale -1 1 1 {disk}"),
+        "disk",
+        &format!("{mirrored}{FLIP}"),
+    );
+    let both = format!("ReverseOrientation Scale -1 1 1 {disk}");
+    assert_shape(&both, "disk", mirrored);
+    let cylinder = r#"<point name="p0" x="0" y="0" z="-1"/><point name="p1" x="0" y="0" z="4"/>"#;
+    let text = r#"ReverseOrientation Shape "cylinder" "float zmax" 4 "float radius" 2"#;
+    assert_shape(text, "cylinder", &format!("{cylinder}{RADIUS}{FLIP}"));
+}
+
+#[test]
+fn meshes_stand_in_the_document() {
+    let mesh = r#"Shape "trianglemesh" "point3 P" [ 0 0 0  1 0 0  0 1 0 ]"#;
+    let index = r#"<string name="filename" value="mesh 0 of the scene file"/>"#;
+    assert_shape(mesh, "ply", &format!("{index}{FLAT}"));
+    let mirrored = format!("Scale -1 1 1 {mesh}");
+    assert_shape(&mirrored, "ply", &format!("{index}{FLAT}{FLIP}{MIRRORED}"));
+    let normals = format!("{mirrored} \"normal N\" [ 0 0 1  0 0 1  0 0 1 ]");
+    assert_shape(&normals, "ply", &format!("{index}{MIRRORED}"));
+    let reversed = format!("ReverseOrientation {normals}");
+    assert_shape(&reversed, "ply", &format!("{index}{MIRRORED}{FLIP}"));
+
+    let document = sound(&format!(
+        "WorldBegin {normals} \"point2 uv\" [ 0 0 1 0 1 1 ]"
+    ));
+    let [data] = document.meshes.as_slice() else {
+        panic!("{} meshes", document.meshes.len());
+    };
+    assert_eq!(
+        data.positions,
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(glam::Vec3::from)
+    );
+    assert_eq!(data.triangles, [[0, 1, 2]]);
+    assert_eq!(data.normals, [glam::Vec3::Z; 3]);
+    assert_eq!(data.uvs[2], glam::Vec2::ONE);
+}
+
+#[test]
+fn texture_coordinates_that_pbrt_adds() {
+    let text = r#"WorldBegin Texture "t" "spectrum" "checkerboard"
+        Material "diffuse" "texture reflectance" "t"
+        Shape "trianglemesh" "point3 P" [ 0 0 0  1 0 0  0 1 0  1 1 0 ] "integer indices" [ 0 1 2  2 1 3 ]"#;
+    let document = sound(text);
+    let [zero, right, one] = [glam::Vec2::ZERO, glam::Vec2::X, glam::Vec2::ONE];
+    assert_eq!(document.meshes[0].uvs, [zero, right, one, zero, right, one]);
+    assert_eq!(document.meshes[0].triangles, [[0, 1, 2], [3, 4, 5]]);
+}
+
+#[test]
+fn parallelograms_are_two_triangles() {
+    let mesh = r#"Shape "bilinearmesh" "point3 P" [ 0 0 0  2 0 0  0 1 0  2 1 0 ]"#;
+    let index = r#"<string name="filename" value="mesh 0 of the scene file"/>"#;
+    assert_shape(mesh, "ply", &format!("{index}{FLAT}"));
+    let document = sound(&format!("WorldBegin {mesh}"));
+    assert_eq!(document.meshes[0].triangles, [[0, 1, 3], [0, 3, 2]]);
+    let curved = r#"Shape "bilinearmesh" "point3 P" [ 0 0 0  2 0 0  0 1 0  2 1 1 ]"#;
+    let corners = r#"<point name="p00" x="0" y="0" z="0"/><point name="p10" x="2" y="0" z="0"/>
+        <point name="p01" x="0" y="1" z="0"/><point name="p11" x="2" y="1" z="1"/>"#;
+    assert_shape(curved, "bilinear", corners);
+}
+
+#[test]
+fn spheres_with_images_are_mirrored() {
+    let text = r#"Texture "t" "spectrum" "imagemap" "string filename" "a.png"
+        Material "diffuse" "texture reflectance" "t" Shape "sphere""#;
+    assert_same_world(
+        text,
+        r#"<shape type="sphere"><float name="radius" value="1"/>
+            <transform name="to_world"><scale z="-1"/></transform> <boolean name="flip_normals" value="true"/>
+            <bsdf type="twosided"><bsdf type="diffuse"><texture type="bitmap" name="reflectance">
+                <string name="filename" value="a.png"/>
+                <transform name="to_uv"><scale y="-1"/><translate y="1"/></transform>
+            </texture></bsdf></bsdf></shape>"#,
+    );
+}
+
+#[test]
+fn alpha_is_a_mask() {
+    assert_same_world(
+        r#"Shape "sphere" "float alpha" 0.25"#,
+        &format!(
+            r#"<shape type="sphere"><float name="radius" value="1"/>
+                <bsdf type="mask"><float name="opacity" value="0.25"/>{MATTE}</bsdf></shape>"#
+        ),
+    );
+}
+
+#[test]
+fn texture_coordinates_that_cannot_be_had() {
+    let outcome = world(
+        r#"Texture "t" "float" "imagemap" "string filename" "a.png" Shape "disk" "texture alpha" "t""#,
+    );
+    let expected = "a.pbrt:2:58: error: Etalon does not have pbrt's texture coordinates of a `disk` (accepted: materials without images, patterns and two roughnesses, or a mesh)";
+    assert_eq!(outcome.lines(), expected);
+}
+
+#[test]
+fn moving_shapes() {
+    let moved = r#"<animation name="to_world">
+        <transform time="0"><translate x="1"/></transform>
+        <transform time="1"><rotate z="1" angle="90"/><translate x="3"/></transform></animation>"#;
+    let text = r#"Camera "perspective" "float shutterclose" 1 WorldBegin
+        ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 3 0 0 Rotate 90 0 0 1
+        Shape "sphere""#;
+    let document = sound(text);
+    let shape = children(&document.root)
+        .into_iter()
+        .find(|n| n.plugin.value == "sphere");
+    let expected = xml(&format!("<shape type=\"sphere\">{moved}</shape>"));
+    let at = |node: &Node, end: f64| {
+        node.properties.iter().find_map(|p| match &p.value {
+            Value::Animation { motion, .. } => Some(numbers(&motion.at(end).to_cols_array())),
+            _ => None,
+        })
+    };
+    let (found, expected) = (shape.expect("a shape"), children(&expected.root).remove(0));
+    for time in [0.0, 0.4, 1.0] {
+        assert_eq!(at(&found, time), at(&expected, time));
+        assert!(at(&found, time).is_some());
+    }
+}
+
+#[test]
+fn objects_are_groups() {
+    let sphere =
+        format!("<shape type=\"sphere\"><float name=\"radius\" value=\"1\"/>{MATTE}</shape>");
+    assert_same_world(
+        r#"ObjectBegin "a" Shape "sphere" ObjectEnd
+           ObjectBegin "unused" Shape "loopsubdiv" ObjectEnd
+           Translate 1 2 3 ObjectInstance "a""#,
+        &format!(
+            r#"<shape type="shapegroup" id="a">{sphere}</shape>
+               <shape type="instance"><ref id="a"/><transform name="to_world"><translate x="1" y="2" z="3"/></transform></shape>"#
+        ),
+    );
+}
+
+#[test]
+fn media_are_on_the_sides_of_surfaces() {
+    assert_same_world(
+        r#"MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ 1 2 3 ] "rgb sigma_s" [ 3 2 1 ]
+               "float scale" 2 "float g" 0.5 "rgb Le" [ 1 1 2 ] "float Lescale" 3
+           MediumInterface "fog" "" Material "interface" Shape "sphere""#,
+        r#"<shape type="sphere"><float name="radius" value="1"/><bsdf type="null"/>
+            <medium type="homogeneous" name="interior">
+                <rgb name="sigma_a" value="1 2 3"/><rgb name="sigma_s" value="3 2 1"/><float name="scale" value="2"/>
+                <rgb name="emission" value="3 3 6"/><phase type="hg"><float name="g" value="0.5"/></phase>
+            </medium></shape>"#,
+    );
+}
+
+#[test]
+fn media_by_default_and_by_name() {
+    let medium = |parameters: &str| {
+        let text = format!(
+            "WorldBegin MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" {parameters} MediumInterface \"\" \"fog\" Shape \"sphere\""
+        );
+        let shape = children(&sound(&text).root).pop().expect("a shape");
+        shown(&children(&shape).pop().expect("a medium"))
+    };
+    let plain = medium("");
+    for part in ["sigma_a: float 1.0", "sigma_s: float 1.0", "g: float 0.0"] {
+        assert!(plain.contains(part), "{plain}");
+    }
+    let named = medium("\"string preset\" \"Ketchup\" \"float scale\" 3");
+    assert!(named.contains("material: string Ketchup"), "{named}");
+    assert!(named.contains("scale: float 3.0"), "{named}");
+}
+
+#[test]
+fn files_of_meshes() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, normals: &str, ends: &str| {
+        let header = format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n{normals}element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        );
+        let text = format!("{header}0 0 0{ends}\n1 0 0{ends}\n0 1 0{ends}\n3 0 1 2\n");
+        std::fs::write(folder.path().join(name), text).expect("written");
+    };
+    write("flat.ply", "", "");
+    let normals = "property float nx\nproperty float ny\nproperty float nz\n";
+    write("round.ply", normals, " 0 0 1");
+    let text = r#"WorldBegin Scale -1 1 1 Shape "plymesh" "string filename" "flat.ply"
+        Shape "plymesh" "string filename" "round.ply""#;
+    let path = folder.path().join("a.pbrt");
+    std::fs::write(&path, text).expect("written");
+    let outcome = pbrt::read(&path, &ReadOptions::default());
+    assert_eq!(outcome.lines(), "");
+    let shape = |name: &str, more: &str| {
+        format!(
+            "<shape type=\"ply\"><string name=\"filename\" value=\"{name}\"/>{MIRRORED}{more}{MATTE}</shape>"
+        )
+    };
+    let expected = shape("flat.ply", &format!("{FLAT}{FLIP}")) + &shape("round.ply", "");
+    assert_alike(&outcome.document.expect("a document"), &xml(&expected));
+}

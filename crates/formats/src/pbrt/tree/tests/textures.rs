@@ -1,0 +1,123 @@
+//! Textures.
+
+use super::*;
+
+/// The value that a diffuse material has by a texture named `t`.
+#[track_caller]
+fn reflectance(texture: &str) -> String {
+    let text = format!(
+        "WorldBegin {texture} Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"trianglemesh\" \"point3 P\" [ 0 0 0 1 0 0 0 1 0 ]"
+    );
+    value(&sound(&text), "reflectance")
+}
+
+/// The value that roughness has by one.
+#[track_caller]
+fn roughness(texture: &str) -> String {
+    let text = format!(
+        "WorldBegin {texture} Material \"dielectric\" \"texture roughness\" \"t\" \"bool remaproughness\" false Shape \"sphere\""
+    );
+    value(&sound(&text), "alpha")
+}
+
+fn value(document: &Document, name: &str) -> String {
+    fn find(node: &Node, name: &str) -> Option<String> {
+        node.properties
+            .iter()
+            .find_map(|property| match &property.value {
+                value if property.name == name => Some(shown_value(value)),
+                Value::Object(nested) => find(nested, name),
+                _ => None,
+            })
+    }
+    find(&document.root, name).expect("a property of that name")
+}
+
+fn texture(xml_text: &str) -> String {
+    shown(&children(&xml(xml_text).root).remove(0))
+}
+
+#[test]
+fn constants_and_arithmetic() {
+    let a = r#"Texture "a" "spectrum" "constant" "rgb value" [ 0.2 0.4 0.6 ]"#;
+    assert_eq!(
+        reflectance(r#"Texture "t" "spectrum" "constant" "rgb value" [ 0.2 0.4 0.6 ]"#),
+        "rgb 2.000000e-1 4.000000e-1 6.000000e-1"
+    );
+    assert_eq!(
+        reflectance(&format!(
+            r#"{a} Texture "t" "spectrum" "scale" "texture tex" "a" "float scale" 0.5"#
+        )),
+        "rgb 1.000000e-1 2.000000e-1 3.000000e-1"
+    );
+    assert_eq!(
+        reflectance(&format!(
+            r#"{a} Texture "t" "spectrum" "mix" "texture tex2" "a" "float amount" 0.25"#
+        )),
+        texture(
+            r#"<texture type="mix"><float name="a" value="0"/><rgb name="b" value="0.2 0.4 0.6"/><float name="weight" value="0.25"/></texture>"#
+        )
+    );
+}
+
+#[test]
+fn images_have_their_first_row_at_the_bottom() {
+    assert_eq!(
+        reflectance(
+            r#"Texture "t" "spectrum" "imagemap" "string filename" "a.png" "float scale" 0.5 "string wrap" "clamp"
+               "float uscale" 2 "float vscale" 3 "float vdelta" 0.25 "string filter" "point""#
+        ),
+        texture(
+            r#"<texture type="scale"><float name="scale" value="0.5"/><texture type="bitmap">
+                <string name="filename" value="a.png"/><string name="wrap_mode" value="clamp"/>
+                <string name="filter_type" value="nearest"/>
+                <transform name="to_uv"><scale x="2" y="3"/><translate y="0.25"/><scale y="-1"/><translate y="1"/></transform>
+            </texture></texture>"#
+        )
+    );
+    let raw = roughness(
+        r#"Texture "t" "float" "imagemap" "string filename" "a.png" "string encoding" "linear""#,
+    );
+    assert!(raw.contains("raw: boolean true"), "{raw}");
+}
+
+#[test]
+fn squares_of_colours_and_of_numbers() {
+    assert_eq!(
+        reflectance(
+            r#"Texture "t" "spectrum" "checkerboard" "float uscale" 4 "float vscale" 4 "rgb tex1" [ 1 0 0 ]"#
+        ),
+        texture(
+            r#"<texture type="checkerboard"><rgb name="color0" value="1 0 0"/><float name="color1" value="0"/>
+                <transform name="to_uv"><scale x="2" y="2"/></transform></texture>"#
+        )
+    );
+    assert_eq!(
+        roughness(r#"Texture "t" "float" "checkerboard" "float tex1" 0.3 "float tex2" 0.1"#),
+        texture(
+            r#"<texture type="checkerboard"><float name="color0" value="0.1"/><float name="color1" value="0.3"/>
+                <transform name="to_uv"><scale x="0.5" y="0.5"/></transform></texture>"#
+        )
+    );
+}
+
+#[test]
+fn bilinear_colours() {
+    let mixed = |a: f64, b: f64, along: &str| {
+        format!(
+            r#"<texture type="mix" name="N"><float name="a" value="{a}"/><float name="b" value="{b}"/>
+                <texture type="expression" name="weight"><string name="value" value="{along}"/></texture></texture>"#
+        )
+    };
+    let below = mixed(0.1, 0.3, "u").replace("\"N\"", "\"a\"");
+    let above = mixed(0.2, 0.4, "u").replace("\"N\"", "\"b\"");
+    assert_eq!(
+        roughness(
+            r#"Texture "t" "float" "bilerp" "float v00" 0.1 "float v01" 0.2 "float v10" 0.3 "float v11" 0.4"#
+        ),
+        texture(&format!(
+            r#"<texture type="mix">{below}{above}
+                <texture type="expression" name="weight"><string name="value" value="v"/></texture></texture>"#
+        ))
+    );
+}

@@ -1,0 +1,206 @@
+//! Textures (`textures.cpp`, `textures.h`): parameters that may be textures, and where patterns lie.
+//!
+//! A texture becomes a value of the tree: a number, a colour, or an object that all its users share. `texture_kinds` maps each type.
+//!
+//! pbrt looks a 2-D texture up at (s, t) = (uscale u + udelta, vscale v + vdelta), which is Mitsuba's `to_uv`. Of images, pbrt counts t from
+//! the bottom row and Mitsuba v from the top one, so for them v becomes 1 − t. Texture coordinates of meshes stand as they are in
+//! both (Mitsuba turns only those of `obj` files over).
+
+use super::super::parameters::Parameters;
+use super::super::scene::TextureId;
+use super::super::spectrum_value::{FloatOrTexture, SpectrumOrTexture};
+use super::Mapper;
+use super::node::{Draft, Given, given};
+use super::spectra::Role;
+use etalon_params::{Class, DMat4, Node, Span, SpectrumText, Value};
+use glam::DVec4;
+use std::collections::HashSet;
+
+/// How t is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rows {
+    /// From the bottom, as pbrt does.
+    FromBottom,
+    /// From the top, as images are in Mitsuba.
+    FromTop,
+}
+
+impl Rows {
+    /// The `to_uv` that counts rows the other way: (u, 1 − v).
+    pub(crate) fn turned() -> DMat4 {
+        let shift = DVec4::new(0.0, 1.0, 0.0, 1.0);
+        DMat4::from_cols(DVec4::X, DVec4::NEG_Y, DVec4::Z, shift)
+    }
+}
+
+impl<'a> Mapper<'a> {
+    /// A number or a float texture, or the default; `None` after a mistake.
+    pub(crate) fn number(
+        &mut self,
+        params: &Parameters<'a>,
+        name: &str,
+        default: f64,
+    ) -> Option<Given> {
+        match self.number_if_given(params, name) {
+            None if params.has(name) => None,
+            None => Some(given(Value::Float(default), params.entity.span)),
+            found => found,
+        }
+    }
+
+    /// The same, `None` if it is not given as well.
+    pub(crate) fn number_if_given(&mut self, params: &Parameters<'a>, name: &str) -> Option<Given> {
+        let span = params.span(name);
+        match params.float_texture(name)? {
+            FloatOrTexture::Value(x) => Some(given(Value::Float(x), span)),
+            FloatOrTexture::Texture(id) => self.texture_at(id, span),
+        }
+    }
+
+    /// A spectrum or a texture of them in its role, or a number by default; `None` after a mistake.
+    pub(crate) fn colour(
+        &mut self,
+        params: &Parameters<'a>,
+        name: &str,
+        default: f64,
+        role: Role,
+    ) -> Option<Given> {
+        match self.colour_if_given(params, name, role) {
+            None if params.has(name) => None,
+            None => Some(given(Value::Float(default), params.entity.span)),
+            found => found,
+        }
+    }
+
+    /// The same, `None` if it is not given as well.
+    pub(crate) fn colour_if_given(
+        &mut self,
+        params: &Parameters<'a>,
+        name: &str,
+        role: Role,
+    ) -> Option<Given> {
+        let span = params.span(name);
+        match params.spectrum_texture(name)? {
+            SpectrumOrTexture::Value(value) => {
+                let value = self.spectrum(params, name, value, role)?;
+                Some(given(value, span))
+            }
+            SpectrumOrTexture::Texture(id) => self.texture_at(id, span),
+        }
+    }
+
+    /// The texture for a parameter at `span`.
+    fn texture_at(&mut self, id: TextureId, span: Span) -> Option<Given> {
+        let found = match self.textures.get(id)? {
+            Some(found) => found.clone(),
+            None => {
+                // That textures contain each other in no circle, nor too deep, was seen when the file was read.
+                let found = self.texture(id);
+                self.textures[id] = Some(found.clone());
+                found
+            }
+        };
+        found.map(|texture| given(texture.value, span))
+    }
+
+    /// The `to_uv` of a 2-D texture; `squares` multiplies the coordinates of the pattern. `None` after a mistake.
+    pub(crate) fn to_uv(
+        &self,
+        params: &Parameters<'_>,
+        rows: Rows,
+        squares: f64,
+    ) -> Option<Option<Given>> {
+        let mapping = params.string("mapping").unwrap_or("uv");
+        let numbers = [
+            ("uscale", 1.0),
+            ("vscale", 1.0),
+            ("udelta", 0.0),
+            ("vdelta", 0.0),
+        ];
+        let [us, vs, ud, vd] = numbers.map(|(name, default)| params.float(name, default));
+        if mapping != "uv" {
+            params.ignore(&["v1", "v2"]);
+            let what = format!("texture mapping `{mapping}`");
+            self.refuse_value(params, "mapping", &what, "uv");
+            return None;
+        }
+        let own = DMat4::from_cols(
+            DVec4::new(us, 0.0, 0.0, 0.0),
+            DVec4::new(0.0, vs, 0.0, 0.0),
+            DVec4::Z,
+            DVec4::new(ud, vd, 0.0, 1.0),
+        );
+        let turned = match rows {
+            Rows::FromBottom => DMat4::IDENTITY,
+            Rows::FromTop => Rows::turned(),
+        };
+        let scale = DMat4::from_scale((squares, squares, 1.0).into());
+        let whole = turned * scale * own;
+        let moved = whole != DMat4::IDENTITY;
+        Some(moved.then(|| given(Value::Transform(whole), params.entity.span)))
+    }
+}
+
+/// A value times a number, an object by the texture `scale`.
+pub(crate) fn times(value: Given, factor: f64) -> Given {
+    let span = value.span;
+    if factor == 1.0 {
+        return value;
+    }
+    let product = match value.value {
+        Value::Float(x) => Value::Float(x * factor),
+        Value::Rgb(rgb) => Value::Rgb(rgb * factor),
+        Value::Spectrum(SpectrumText::Uniform(x)) => {
+            Value::Spectrum(SpectrumText::Uniform(x * factor))
+        }
+        Value::Spectrum(SpectrumText::Samples(pairs)) => {
+            let pairs = pairs.into_iter().map(|(nm, x)| (nm, x * factor));
+            Value::Spectrum(SpectrumText::Samples(pairs.collect()))
+        }
+        other => {
+            return Draft::new(Class::Texture, "scale", span)
+                .with("", other, span)
+                .plain("scale", Value::Float(factor))
+                .value();
+        }
+    };
+    given(product, span)
+}
+
+/// Whether something is looked up by texture coordinates within a node.
+pub(crate) fn looks_at_uv(node: &Node) -> bool {
+    const BY_UV: [&str; 3] = ["bitmap", "checkerboard", "expression"];
+    any_within(node, |node| {
+        node.class == Class::Texture && BY_UV.contains(&node.plugin.value.as_str())
+    })
+}
+
+/// Whether a material within a node is rougher along one tangent than along the other.
+pub(crate) fn has_tangents(node: &Node) -> bool {
+    any_within(node, |node| {
+        node.properties.iter().any(|p| p.name == "alpha_u")
+    })
+}
+
+/// Whether something holds for a node, or for one in it. Shared nodes are looked at once: there may be exponentially many ways to them.
+fn any_within(node: &Node, holds: impl Fn(&Node) -> bool) -> bool {
+    let mut seen = HashSet::new();
+    let mut open = vec![node];
+    while let Some(node) = open.pop() {
+        if !seen.insert(std::ptr::from_ref(node)) {
+            continue;
+        }
+        if holds(node) {
+            return true;
+        }
+        open.extend(
+            node.properties
+                .iter()
+                .filter_map(|property| match &property.value {
+                    Value::Object(nested) => Some(&**nested),
+                    _ => None,
+                }),
+        );
+    }
+    false
+}
