@@ -54,7 +54,7 @@ pub struct Cli {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Render a Mitsuba 3 XML scene to an EXR with standard errors.
+    /// Render a scene (Mitsuba 3 XML or pbrt-v4) to an EXR with standard errors.
     #[command(after_help = "\
 Ctrl-C, SIGTERM and SIGHUP stop within two seconds. An image is written of the replicates that are
 finished; if none is, of the samples that there are, without standard errors. With `--resume` nothing
@@ -219,7 +219,7 @@ Examples:
 #[command(group = clap::ArgGroup::new("wanted").args(["output", "replay"]))]
 #[command(group = clap::ArgGroup::new("piloted").multiple(true).args(["error", "adaptive"]))]
 pub struct RenderArgs {
-    /// The scene (Mitsuba 3 XML).
+    /// The scene (Mitsuba 3 XML or pbrt-v4).
     pub scene: PathBuf,
     /// The image to write: .exr; .png writes a picture beside an .exr; .hdr and .pfm hold no
     /// standard errors [default: the scene's name with .exr, in this folder].

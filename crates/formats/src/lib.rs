@@ -28,10 +28,23 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
+/// Whether the name of a file is that of a scene.
+pub fn is_scene(path: &Path) -> bool {
+    is_pbrt(path) || has_ending(path, &[".xml"])
+}
+
+fn is_pbrt(path: &Path) -> bool {
+    has_ending(path, &[".pbrt", ".pbrt.gz"])
+}
+
+fn has_ending(path: &Path, endings: &[&str]) -> bool {
+    let name = path.to_string_lossy().to_ascii_lowercase();
+    endings.iter().any(|ending| name.ends_with(ending))
+}
+
 /// Reads a scene in the language that the name of its file tells: pbrt's for `.pbrt` and `.pbrt.gz`, else Mitsuba's XML.
 pub fn read(path: &Path, options: &ReadOptions) -> ReadOutcome {
-    let name = path.to_string_lossy().to_ascii_lowercase();
-    match name.ends_with(".pbrt") || name.ends_with(".pbrt.gz") {
+    match is_pbrt(path) {
         true => pbrt::read(path, options),
         false => mitsuba::read(path, options),
     }

@@ -12,6 +12,7 @@ use etalon_film::{
     ExactFilm, FilmSettings, Filter, Part, PixelFilter, RenderFacts, RenderedImage, SampleCounts,
     recorded_seconds,
 };
+pub use etalon_formats::is_scene;
 use etalon_formats::{Document, FileAssets, ReadOptions, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Progress, RenderPlan, RenderStatistics, ReplicateRange};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span, Value};

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 /// Arguments of `estimators`.
 #[derive(Debug, Args, Clone)]
 pub struct EstimatorsArgs {
-    /// The scene (Mitsuba 3 XML).
+    /// The scene (Mitsuba 3 XML or pbrt-v4).
     pub scene: PathBuf,
     /// Integrators, each in place of the scene's innermost one [default: the scene's].
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]

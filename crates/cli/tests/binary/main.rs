@@ -29,6 +29,7 @@ mod media;
 mod merge;
 mod mutations;
 mod outputs;
+mod pbrt;
 mod preview;
 mod render;
 mod replay;

@@ -5,7 +5,7 @@
 
 use crate::mitsuba::transform;
 use etalon_params::{DMat4, DVec3};
-use glam::DVec4;
+use glam::{DAffine3, DVec4};
 
 /// Where something stands: its transform to world space, or for the camera, from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,9 +37,14 @@ impl Placement {
 
     /// The inverse of both transforms, if they have one.
     pub fn inverse(&self) -> Option<Self> {
+        let inverse = |matrix: DMat4| match matrix.row(3) == DVec4::W {
+            // Of an affine map it is affine to the last bit.
+            true => DMat4::from(DAffine3::from_mat4(matrix).inverse()),
+            false => matrix.inverse(),
+        };
         let inverse = Self {
-            start: self.start.inverse(),
-            end: self.end.inverse(),
+            start: inverse(self.start),
+            end: inverse(self.end),
             times: self.times,
         };
         inverse.is_finite().then_some(inverse)
@@ -119,6 +124,19 @@ mod tests {
         assert_eq!(look_at(eye, eye, DVec3::Y), None);
         assert_eq!(look_at(eye, eye + DVec3::Y, DVec3::Y), None);
         assert_eq!(look_at(eye, eye + DVec3::Y, DVec3::ZERO), None);
+    }
+
+    #[test]
+    fn inverses_of_affine_maps_are_affine() {
+        let turned = rotate(40.0, DVec3::new(1.0, 2.0, 3.0)).expect("a rotation");
+        let start = DMat4::from_translation(DVec3::new(-0.07, 3.98, 16.2)) * turned;
+        let placement = Placement {
+            start,
+            ..Placement::default()
+        };
+        let inverse = placement.inverse().expect("invertible");
+        assert_eq!(inverse.start.row(3), DVec4::W);
+        assert!((inverse.start * start).abs_diff_eq(DMat4::IDENTITY, 1e-12));
     }
 
     #[test]

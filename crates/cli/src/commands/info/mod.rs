@@ -18,21 +18,23 @@ pub fn run(args: &InfoArgs) -> ExitCode {
     };
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
-        Some("xml") => scene::run(file, args.json),
+        _ if etalon_render::pipeline::is_scene(file) => scene::run(file, args.json),
         Some("exr" | "checkpoint") => match read_developed(file) {
             Ok(developed) if args.json => answer(&as_json(&developed), ExitCode::SUCCESS),
             Ok(developed) => answer(&image(&developed), ExitCode::SUCCESS),
             Err(error) => fail(error),
         },
-        _ if args.json => {
-            fail("`--json` tells of scenes (.xml), images (.exr) and checkpoints (.checkpoint)")
-        }
+        _ if args.json => fail(
+            "`--json` tells of scenes (.xml, .pbrt), images (.exr) and checkpoints (.checkpoint)",
+        ),
         _ => match contents(file) {
             Some(Ok(text)) => answer(&text, ExitCode::SUCCESS),
             Some(Err(reason)) => fail(format!("{}: {reason}", file.display())),
             None => match picture(file) {
                 Ok(text) => answer(&text, ExitCode::SUCCESS),
-                Err(error) => fail(format!("neither a scene (.xml) nor an image: {error}")),
+                Err(error) => fail(format!(
+                    "neither a scene (.xml, .pbrt) nor an image: {error}"
+                )),
             },
         },
     }

@@ -1,6 +1,6 @@
 //! Surfaces that shine (`lights.cpp`, `DiffuseAreaLight`): `area`.
 //!
-//! Both emit on the side of the normal. The radiance is L divided by its luminance (not for an `rgb`, see `spectra`), times `scale`; a
+//! Both emit on the side of the normal. The radiance is L divided by its luminance (not for an `rgb`, see `spectrum`), times `scale`; a
 //! `power` Φ makes it Φ / (π A) times that, in which A is the area of one sphere, disk, cylinder, triangle or patch: pbrt makes a light of each,
 //! so a mesh of n triangles has n Φ. Of quadrics A is measured in their own space, before the CTM. The colour of an `rgb` does not count in
 //! that either. An image is looked up by (u, v), counted from the bottom, between its texels.
@@ -9,7 +9,7 @@ use super::super::parameters::Parameters;
 use super::super::scene::Entity;
 use super::Mapper;
 use super::node::{Draft, given, word};
-use super::spectra::Role;
+use super::spectrum::Role;
 use super::textures::Rows;
 use etalon_params::{Class, Node, Value};
 use std::f64::consts::PI;

@@ -7,7 +7,7 @@
 use super::super::parameters::Parameters;
 use super::Mapper;
 use super::dielectrics::{between_vacuum, of_alpha};
-use super::spectra::Role;
+use super::spectrum::Role;
 use etalon_params::{Node, Value};
 use std::sync::Arc;
 

@@ -9,7 +9,7 @@ use super::super::spectrum_value::{FloatOrSpectrum, SpectrumValue};
 use super::Mapper;
 use super::node::{Draft, Given, given, word};
 use super::roughness::Roughness;
-use super::spectra::Role;
+use super::spectrum::Role;
 use etalon_params::{Class, Node, Value};
 use std::sync::Arc;
 

@@ -13,7 +13,7 @@ use super::super::spectrum_value::{FloatOrTexture, SpectrumOrTexture};
 use super::Mapper;
 use super::dielectrics::between_vacuum;
 use super::node::{Draft, Given, given};
-use super::spectra::{Role, computed};
+use super::spectrum::{Role, computed};
 use etalon_math::float64;
 use etalon_params::{Class, Node, Value};
 use std::sync::Arc;

@@ -7,14 +7,14 @@
 //! | distant | `directional`, from `from` to `to` | scale, and E with an `illuminance` E |
 //! | infinite | `constant` | scale, and E / π |
 //!
-//! Spectra are divided by their luminance, see `spectra`. c is `coneangle`, b is `conedeltaangle` less.
+//! Spectra are divided by their luminance, see `spectrum`. c is `coneangle`, b is `conedeltaangle` less.
 
 use super::super::parameters::Parameters;
 use super::super::scene::Light;
 use super::Mapper;
 use super::area_light::light_scale;
 use super::node::{Draft, Given, given, vector, word};
-use super::spectra::Role;
+use super::spectrum::Role;
 use etalon_math::float64;
 use etalon_params::{Class, DMat4, DVec3, Node, Value};
 use std::f64::consts::{PI, TAU};

@@ -8,7 +8,7 @@ use super::super::parameters::Parameters;
 use super::super::scene::MaterialId;
 use super::Mapper;
 use super::node::{Draft, given, word};
-use super::spectra::Role;
+use super::spectrum::Role;
 use super::textures::{Rows, times};
 use etalon_params::{Class, Node, SpectrumText, Value};
 use std::sync::Arc;

@@ -8,7 +8,7 @@ use super::super::scene::MediumId;
 use super::super::spectrum_value::SpectrumValue;
 use super::Mapper;
 use super::node::{Draft, given, word};
-use super::spectra::Role;
+use super::spectrum::Role;
 use etalon_params::{Class, Node, Value};
 use std::sync::Arc;
 

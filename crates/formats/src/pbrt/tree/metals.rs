@@ -7,7 +7,7 @@ use super::super::parameters::Parameters;
 use super::super::spectrum_value::{SpectrumOrTexture, SpectrumValue};
 use super::Mapper;
 use super::node::{Given, given, word};
-use super::spectra::{Role, computed, samples_of};
+use super::spectrum::{Role, computed, samples_of};
 use etalon_params::{Node, Span, SpectrumText, Value};
 use etalon_spectrum::conductors;
 use std::sync::Arc;

@@ -32,7 +32,7 @@ mod quadrics;
 mod roughness;
 mod sampler;
 mod shapes;
-mod spectra;
+mod spectrum;
 mod spectrum_file;
 mod subsurface;
 #[cfg(test)]

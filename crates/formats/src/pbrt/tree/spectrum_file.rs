@@ -14,12 +14,12 @@ const MOST_BYTES: u64 = 64 << 20;
 
 /// Why a file could not be read, without the place that names it.
 #[derive(Debug)]
-pub(crate) struct Mistake {
+pub(crate) struct SpectrumFileMistake {
     message: String,
     help: Option<String>,
 }
 
-impl Mistake {
+impl SpectrumFileMistake {
     /// The mistake at the place that names the file.
     pub(crate) fn at(self, span: Span) -> Diagnostic {
         let mistake = Diagnostic::error(span, self.message);
@@ -34,12 +34,12 @@ impl Mistake {
 pub(crate) fn read(
     search: &SearchPath,
     name: &str,
-) -> Result<(Vec<[f64; 2]>, SourceFile), Mistake> {
-    let plain = |message| Mistake {
+) -> Result<(Vec<[f64; 2]>, SourceFile), SpectrumFileMistake> {
+    let plain = |message| SpectrumFileMistake {
         message,
         help: None,
     };
-    let path = search.find(name).ok_or_else(|| Mistake {
+    let path = search.find(name).ok_or_else(|| SpectrumFileMistake {
         message: format!("there is no spectrum `{name}`, and no file of that name"),
         help: Some(search.why_not(name)),
     })?;

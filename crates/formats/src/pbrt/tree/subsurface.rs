@@ -9,7 +9,7 @@ use super::Mapper;
 use super::dielectrics::between_vacuum;
 use super::materials::Surface;
 use super::node::{Draft, Given, given, word};
-use super::spectra::Role;
+use super::spectrum::Role;
 use super::textures::times;
 use etalon_params::{Class, DVec3, Value};
 

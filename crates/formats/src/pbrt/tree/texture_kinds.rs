@@ -16,7 +16,7 @@ use super::super::parameters::Parameters;
 use super::super::scene::{TextureId, TextureKind};
 use super::Mapper;
 use super::node::{Draft, Given, given, word};
-use super::spectra::Role;
+use super::spectrum::Role;
 use super::textures::{Rows, times};
 use etalon_params::{Class, Span, Value};
 

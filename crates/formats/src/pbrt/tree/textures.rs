@@ -11,7 +11,7 @@ use super::super::scene::TextureId;
 use super::super::spectrum_value::{FloatOrTexture, SpectrumOrTexture};
 use super::Mapper;
 use super::node::{Draft, Given, given};
-use super::spectra::Role;
+use super::spectrum::Role;
 use etalon_params::{Class, DMat4, Node, Span, SpectrumText, Value};
 use glam::DVec4;
 use std::collections::HashSet;
