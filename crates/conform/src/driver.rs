@@ -8,7 +8,7 @@
 //! ```
 //!
 //! `command` is run for every picture. In its words stand `{scene}` (a neutral scene, JSON), `{xml}` (the same for readers of
-//! Mitsuba's format), `{samples}`, `{seed}`, `{threads}`, `{mode}` (`measure` or `shipped`), `{out}` (an EXR of linear
+//! Mitsuba's format), `{pbrt}` (for readers of pbrt's), `{samples}`, `{seed}`, `{threads}`, `{mode}` (`measure` or `shipped`), `{out}` (an EXR of linear
 //! float32, the top row first, or with `picture = "pfm"` a portable float map), `{driver}` (the script `script` beside the TOML), `{python}` and `{etalon}`. Exit code 3 says
 //! that the program cannot express the scene, with the reason as the last line on standard error.
 //!

@@ -31,6 +31,7 @@ macro_rules! drivers {
 // The list: name, description, and the files that it needs.
 drivers! {
     "etalon" "etalon.toml",
+    "etalon-pbrt" "etalon-pbrt.toml",
     "mitsuba" "mitsuba.toml" "mitsuba.py" "protocol.py" "shapes.py",
     "mitsuba-spectral" "mitsuba-spectral.toml" "mitsuba.py" "protocol.py" "shapes.py",
     "cycles" "cycles.toml" "cycles.py" "protocol.py" "shapes.py",

@@ -4,6 +4,7 @@ use crate::job::Job;
 use crate::judge::Verdict;
 use crate::mitsuba_xml;
 use crate::mode::Mode;
+use crate::pbrt_scene;
 use crate::plan::Plan;
 use crate::question::Question;
 use crate::replicate::Replicate;
@@ -75,7 +76,7 @@ impl Folder {
         Plan::read(&self.0.join(PLAN))
     }
 
-    /// Writes a question in a pose, as JSON and, if it can be said so, as XML; not again if it is there.
+    /// Writes a question in a pose, as JSON and, if it can be said so, as XML and in pbrt's language; not again if it is there.
     ///
     /// # Errors
     /// If the files cannot be written.
@@ -97,6 +98,9 @@ impl Folder {
         if let Ok(xml) = mitsuba_xml::write(&scene, &name, mode) {
             files.extend(xml.files);
             files.push((format!("{name}.xml"), xml.text.into_bytes()));
+        }
+        if let Ok(text) = pbrt_scene::write(&scene, mode) {
+            files.push((format!("{name}.pbrt"), text.into_bytes()));
         }
         let files = files
             .into_iter()

@@ -72,6 +72,7 @@ impl Job {
         BTreeMap::from([
             ("scene", scene("json")),
             ("xml", scene("xml")),
+            ("pbrt", scene("pbrt")),
             ("samples", self.samples.to_string()),
             ("seed", self.seed.to_string()),
             ("threads", threads.to_string()),

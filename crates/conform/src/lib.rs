@@ -16,6 +16,7 @@ pub mod mitsuba_xml;
 pub mod mode;
 pub mod null_programs;
 pub mod page;
+pub mod pbrt_scene;
 pub mod plan;
 pub mod pose;
 pub mod question;

@@ -4,6 +4,7 @@ use crate::driver::Driver;
 use crate::job::Job;
 use crate::mitsuba_xml;
 use crate::mode::Mode;
+use crate::pbrt_scene;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader, Read, Write};
@@ -50,23 +51,28 @@ impl Place<'_> {
         job.values(self.folder, 1, self.mode)
     }
 
-    /// What Mitsuba's format cannot say.
-    fn why_there_is_no_xml(&self, job: &Job) -> String {
+    /// What a format, the one of this placeholder, cannot say.
+    fn why_it_is_missing(&self, format: &str, job: &Job) -> String {
         let question = crate::questions::by_name(&job.question);
         let why = question.and_then(|question| {
             let (scene, _) = question.posed(self.suite_seed, job.pose);
-            mitsuba_xml::write(&scene, question.name, self.mode).err()
+            match format {
+                "pbrt" => pbrt_scene::write(&scene, self.mode).err(),
+                _ => mitsuba_xml::write(&scene, question.name, self.mode).err(),
+            }
         });
-        why.unwrap_or_else(|| "its XML is missing".to_owned())
+        why.unwrap_or_else(|| format!("its {format} file is missing"))
     }
 
     /// The command for a job, or why there is none.
     fn command(&self, driver: &Driver, job: &Job) -> Result<Vec<String>, Outcome> {
         let values = self.values(job);
         let words = &driver.description.command;
-        let asks_for_xml = words.iter().any(|word| word.contains("{xml}"));
-        if asks_for_xml && !Path::new(&values["xml"]).is_file() {
-            return Err(Outcome::Unsupported(self.why_there_is_no_xml(job)));
+        for format in ["xml", "pbrt"] {
+            let asks = |word: &String| word.contains(&format!("{{{format}}}"));
+            if words.iter().any(asks) && !Path::new(&values[format]).is_file() {
+                return Err(Outcome::Unsupported(self.why_it_is_missing(format, job)));
+            }
         }
         driver.command(&values).map_err(Outcome::Broken)
     }

@@ -2,4 +2,5 @@
 
 mod judging;
 mod page;
+mod pbrt;
 mod running;
