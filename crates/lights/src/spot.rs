@@ -4,7 +4,7 @@
 //! I(θ) = I₀ · t(u, v) · f(θ)
 //! ```
 //!
-//! with f as in [`crate::spot_profile`]. The optional texture is projected along the
+//! with f as in `spot_profile.rs`. The optional texture is projected along the
 //! axis: a direction (x, y, z) of the light's space sees u = ½ + x/(2 z tan c),
 //! v = ½ + y/(2 z tan c), c the cutoff angle. Without texture the power is I₀ ∫ f dω.
 
