@@ -2,12 +2,11 @@
 
 use crate::job::Job;
 use crate::judge::Verdict;
-use crate::mitsuba_xml;
 use crate::mode::Mode;
-use crate::pbrt_scene;
 use crate::plan::Plan;
 use crate::question::Question;
 use crate::replicate::Replicate;
+use crate::scene_format;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -76,7 +75,7 @@ impl Folder {
         Plan::read(&self.0.join(PLAN))
     }
 
-    /// Writes a question in a pose, as JSON and, if it can be said so, as XML and in pbrt's language; not again if it is there.
+    /// Writes a question in a pose, as JSON and in the languages that can say it; not again if it is there.
     ///
     /// # Errors
     /// If the files cannot be written.
@@ -95,12 +94,8 @@ impl Folder {
         }
         let (scene, _) = question.posed(suite_seed, pose);
         let mut files = Vec::new();
-        if let Ok(xml) = mitsuba_xml::write(&scene, &name, mode) {
-            files.extend(xml.files);
-            files.push((format!("{name}.xml"), xml.text.into_bytes()));
-        }
-        if let Ok(text) = pbrt_scene::write(&scene, mode) {
-            files.push((format!("{name}.pbrt"), text.into_bytes()));
+        for format in scene_format::ALL {
+            files.extend((format.write)(&scene, &name, mode).unwrap_or_default());
         }
         let files = files
             .into_iter()

@@ -2,6 +2,7 @@
 
 use crate::driver::PictureFormat;
 use crate::mode::Mode;
+use crate::scene_format;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -69,15 +70,16 @@ impl Job {
             let file = format!("{}.{ending}", self.scene_name());
             path(folder.join("scenes").join(file))
         };
-        BTreeMap::from([
+        let formats = scene_format::ALL.map(|format| (format.ending, scene(format.ending)));
+        let mut values = BTreeMap::from([
             ("scene", scene("json")),
-            ("xml", scene("xml")),
-            ("pbrt", scene("pbrt")),
             ("samples", self.samples.to_string()),
             ("seed", self.seed.to_string()),
             ("threads", threads.to_string()),
             ("mode", mode.name().to_owned()),
             ("out", path(self.picture(folder))),
-        ])
+        ]);
+        values.extend(formats);
+        values
     }
 }

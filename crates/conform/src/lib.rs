@@ -27,6 +27,7 @@ pub mod report;
 pub mod rules;
 pub mod runner;
 pub mod scene;
+pub mod scene_format;
 pub mod suite;
 mod suspicion;
 pub mod tier;

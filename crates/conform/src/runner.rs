@@ -2,9 +2,8 @@
 
 use crate::driver::Driver;
 use crate::job::Job;
-use crate::mitsuba_xml;
 use crate::mode::Mode;
-use crate::pbrt_scene;
+use crate::scene_format::{self, SceneFormat};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader, Read, Write};
@@ -51,26 +50,24 @@ impl Place<'_> {
         job.values(self.folder, 1, self.mode)
     }
 
-    /// What a format, the one of this placeholder, cannot say.
-    fn why_it_is_missing(&self, format: &str, job: &Job) -> String {
+    /// What a language cannot say of a question.
+    fn why_it_is_missing(&self, format: &SceneFormat, job: &Job) -> String {
         let question = crate::questions::by_name(&job.question);
         let why = question.and_then(|question| {
             let (scene, _) = question.posed(self.suite_seed, job.pose);
-            match format {
-                "pbrt" => pbrt_scene::write(&scene, self.mode).err(),
-                _ => mitsuba_xml::write(&scene, question.name, self.mode).err(),
-            }
+            (format.write)(&scene, question.name, self.mode).err()
         });
-        why.unwrap_or_else(|| format!("its {format} file is missing"))
+        why.unwrap_or_else(|| format!("its {} file is missing", format.ending))
     }
 
     /// The command for a job, or why there is none.
     fn command(&self, driver: &Driver, job: &Job) -> Result<Vec<String>, Outcome> {
         let values = self.values(job);
         let words = &driver.description.command;
-        for format in ["xml", "pbrt"] {
-            let asks = |word: &String| word.contains(&format!("{{{format}}}"));
-            if words.iter().any(asks) && !Path::new(&values[format]).is_file() {
+        for format in &scene_format::ALL {
+            let placeholder = format!("{{{}}}", format.ending);
+            let is_asked = words.iter().any(|word| word.contains(&placeholder));
+            if is_asked && !Path::new(&values[format.ending]).is_file() {
                 return Err(Outcome::Unsupported(self.why_it_is_missing(format, job)));
             }
         }

@@ -202,7 +202,7 @@ fn export(args: &ConformExportArgs) -> Result<ExitCode, String> {
         let scene = format!("scenes/{}", job.scene_name());
         let out = job.picture(Path::new(""));
         let line = serde_json::json!({
-            "scene": format!("{scene}.json"), "xml": format!("{scene}.xml"),
+            "scene": format!("{scene}.json"), "xml": format!("{scene}.xml"), "pbrt": format!("{scene}.pbrt"),
             "samples": job.samples, "seed": job.seed, "mode": suite.plan.mode.name(),
             "out": out.display().to_string(),
         });

@@ -329,3 +329,30 @@ fn the_rate_of_false_alarms_is_kept() {
         .count();
     assert!((1..=19).contains(&accused), "{accused}");
 }
+
+/// A reference that may be off itself narrows what agrees and widens what may differ. Mutant rejected: its error is left out.
+#[test]
+fn a_truth_that_is_uncertain_decides_less() {
+    let exact = truth();
+    let uncertain = Picture {
+        error: 5e-4,
+        ..truth()
+    };
+    let verdicts = |factor: f64| {
+        let mut pictures = sound(32, 0.002, 3);
+        let values = pictures.iter_mut().flat_map(|p| &mut p.luminance);
+        values.for_each(|value| *value *= factor);
+        [&exact, &uncertain].map(|truth| judge(truth, &pictures, &rules(40, 2)).verdict)
+    };
+    let [known, unknown] = verdicts(1.004);
+    assert!(
+        known == Verdict::Agrees && matches!(unknown, Verdict::Undecided(_)),
+        "{unknown:?}"
+    );
+    let [known, unknown] = verdicts(1.0065);
+    assert!(
+        known == Verdict::Differs && matches!(unknown, Verdict::Undecided(_)),
+        "{unknown:?}"
+    );
+    assert_eq!(verdicts(1.02), [Verdict::Differs, Verdict::Differs]);
+}
