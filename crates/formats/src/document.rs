@@ -42,11 +42,18 @@ pub struct Document {
     pub parameters: Vec<(String, String)>,
     /// Meshes that stand in the scene file itself: a `ply` has [`mesh_name`] for the name of its file.
     pub meshes: Vec<Arc<MeshData>>,
+    /// Contents of files that stand in the scene file itself: they are asked for by [`embedded_name`].
+    pub embedded: Vec<Arc<Vec<u8>>>,
 }
 
 /// The name of a mesh in [`Document::meshes`], for shapes and messages.
 pub fn mesh_name(index: usize) -> String {
     format!("mesh {index} of the scene file")
+}
+
+/// The name of a file in [`Document::embedded`].
+pub fn embedded_name(index: usize) -> String {
+    format!("file {index} of the scene file")
 }
 
 /// What came of reading a scene.

@@ -1,6 +1,6 @@
 //! The files of a scene, looked up along its search path.
 
-use crate::document::{Document, mesh_name};
+use crate::document::{Document, embedded_name, mesh_name};
 use crate::{SearchPath, gzip, obj, open_bounded, ply, read_bounded, serialized};
 use etalon_transport::{AssetError, Assets, MeshData, MeshFormat};
 use std::collections::{BTreeSet, HashMap};
@@ -27,6 +27,8 @@ pub struct FileAssets {
     limit: u64,
     /// Those that are no files: [`Document::meshes`], by their names.
     meshes: HashMap<String, Arc<MeshData>>,
+    /// [`Document::embedded`], by their names.
+    embedded: HashMap<String, Arc<Vec<u8>>>,
     state: Mutex<State>,
 }
 
@@ -45,16 +47,20 @@ impl FileAssets {
             search,
             limit: MOST_BYTES,
             meshes: HashMap::new(),
+            embedded: HashMap::new(),
             state: Mutex::default(),
         }
     }
 
-    /// What a scene needs: files along its search path, and the meshes in its description.
+    /// What a scene needs: files along its search path, and what its description has within.
     pub fn of(document: &Document) -> Self {
         let meshes = document.meshes.iter().enumerate();
         let meshes = meshes.map(|(index, mesh)| (mesh_name(index), Arc::clone(mesh)));
+        let embedded = document.embedded.iter().enumerate();
+        let embedded = embedded.map(|(index, bytes)| (embedded_name(index), Arc::clone(bytes)));
         Self {
             meshes: meshes.collect(),
+            embedded: embedded.collect(),
             ..Self::new(document.search.clone())
         }
     }
@@ -117,6 +123,9 @@ impl FileAssets {
 
 impl Assets for FileAssets {
     fn bytes(&self, name: &str) -> Result<Arc<Vec<u8>>, AssetError> {
+        if let Some(bytes) = self.embedded.get(name) {
+            return Ok(Arc::clone(bytes));
+        }
         let path = self.find(name)?;
         if let Some(bytes) = self.state().shared.get(&path).and_then(Weak::upgrade) {
             return Ok(bytes);

@@ -18,7 +18,7 @@ mod search_path;
 pub mod serialized;
 mod unused;
 
-pub use document::{Document, ReadOptions, ReadOutcome, SourceFile, mesh_name};
+pub use document::{Document, ReadOptions, ReadOutcome, SourceFile, embedded_name, mesh_name};
 pub use file_assets::FileAssets;
 pub use mesh_error::{MeshError, Place};
 pub use search_path::SearchPath;

@@ -136,7 +136,10 @@ shapes! {
     /// Polylines of balls.
     LinearCurve(Curves<RoundCone>) { "linearcurve" => |params, build| Curves::from_params(params, build), }
     /// Splines of circles.
-    SplineCurve(Curves<RoundSpline>) { "bsplinecurve" => |params, build| Curves::from_params(params, build), }
+    SplineCurve(Curves<RoundSpline>) {
+        "bsplinecurve" => |params, build| Curves::from_params(params, build),
+        "beziercurve" => RoundSpline::bezier_curves,
+    }
     /// A function on a grid.
     SdfGrid(Placed<SdfGrid>) { "sdfgrid" => |params, build| SdfGrid::from_params(params, build), }
     /// A torus.

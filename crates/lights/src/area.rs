@@ -5,6 +5,8 @@
 //! Φ = π ∫ L dA
 //! ```
 //!
+//! With `twosided` it emits so from both sides, and Φ is twice that.
+//!
 //! A moving light has the same radiance at all times. Its power, which is used for light selection only, is that at
 //! the start of the shutter interval.
 //!
@@ -17,7 +19,7 @@ use crate::{BoundingSphere, LightExtent};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::lane::{Lane, Mask, Spectral, Vector};
 use etalon_math::offset::offset_origins;
-use etalon_math::{Density, SolidAngle};
+use etalon_math::{Density, DirectionCone, SolidAngle};
 use etalon_params::Params;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_spectrum::Wavelengths;
@@ -35,27 +37,48 @@ pub struct AreaLight {
     pub shape: ShapeId,
     /// Whether its radiance varies over the shape.
     pub varies: bool,
+    /// Whether both of its sides emit.
+    pub twosided: bool,
     /// Its radiance (W·m⁻²·sr⁻¹·nm⁻¹).
     pub radiance: TextureId,
 }
 
 impl AreaLight {
-    /// Reads `radiance`.
+    /// Reads `radiance` and `twosided`.
     pub fn from_params(params: &Params<'_>, shape: ShapeId, build: &mut dyn Build) -> Self {
         Self {
             shape,
             varies: is_varying(params, "radiance", build),
+            twosided: params.boolean_or("twosided", false),
             radiance: build.texture(params, "radiance", Some(1.0), SpectrumKind::Emission),
         }
+    }
+
+    /// The part of the emitted particles that leave from one side.
+    #[inline]
+    fn share_of_side(&self) -> f32 {
+        if self.twosided { 0.5 } else { 1.0 }
+    }
+
+    /// The cosine that counts for one on the outer side.
+    #[inline]
+    fn cos(&self, cos: f32) -> f32 {
+        if self.twosided { cos.abs() } else { cos }
     }
 }
 
 /// Whether points of a surface send light to receivers, the directions to them, and the ends of shadow rays.
 #[inline(always)]
-fn connected<F: Lane>(point: &LanePoint<F>, from: F::Vector) -> (F::Mask, F::Vector, F::Vector) {
+fn connected<F: Lane>(
+    point: &LanePoint<F>,
+    from: F::Vector,
+    twosided: bool,
+) -> (F::Mask, F::Vector, F::Vector) {
     let to = point.position - from;
+    let along = point.normal.dot_product(to);
+    let against = if twosided { -along.abs() } else { along };
     // Also false where the two coincide, or are farther apart than numbers go.
-    let found = point.density.gt(F::ZERO) & point.normal.dot_product(to).lt(F::ZERO);
+    let found = point.density.gt(F::ZERO) & against.lt(F::ZERO);
     let target = offset_origins::<F>(point.position, point.error, point.normal, -to);
     (found, to.over(to.norm()), target)
 }
@@ -81,7 +104,7 @@ impl LightModel for AreaLight {
         wo: Vec3,
         wavelengths: &Wavelengths,
     ) -> Vec4 {
-        if at.normal.dot(wo) > 0.0 {
+        if self.cos(at.normal.dot(wo)) > 0.0 {
             textures.spectrum(self.radiance, &at.texture, wavelengths.lambda)
         } else {
             Vec4::ZERO
@@ -114,8 +137,8 @@ impl LightModel for AreaLight {
                 (seen, point.texture)
             }
         };
-        let (found, direction, target) = connected::<f32>(&point, from.position);
-        let cos = -point.normal.dot(direction);
+        let (found, direction, target) = connected::<f32>(&point, from.position, self.twosided);
+        let cos = self.cos(-point.normal.dot(direction));
         found.then(|| LightSample {
             direction,
             target: Some(target),
@@ -133,7 +156,8 @@ impl LightModel for AreaLight {
 
     #[inline]
     fn is_alike(&self, other: &Self, shapes: &impl Shapes) -> bool {
-        !self.varies && !other.varies && shapes.are_alike([self.shape, other.shape])
+        let same_sides = self.twosided == other.twosided;
+        same_sides && !self.varies && !other.varies && shapes.are_alike([self.shape, other.shape])
     }
 
     #[inline]
@@ -145,8 +169,9 @@ impl LightModel for AreaLight {
         u: [F; 2],
     ) -> LaneLightSample<F> {
         let point = scene.points_toward(|i| light(i).shape, from, u);
-        let (found, direction, target) = connected(&point, from.position);
-        let shines = wanted & found & point.normal.dot_product(-direction).gt(F::ZERO);
+        // Those that are alike emit from the same sides.
+        let (found, direction, target) = connected(&point, from.position, light(0).twosided);
+        let shines = wanted & found;
         let dark = F::Spectrum::uniform(F::ZERO);
         let radiance = match shines.any() {
             true => {
@@ -177,16 +202,22 @@ impl LightModel for AreaLight {
         time: f32,
     ) -> Option<Emission> {
         let SampledPoint { point, density } = scene.sample_area(self.shape, u_position, time);
-        let frame = etalon_math::Frame::from_normal(point.normal);
+        let (mut normal, mut u_direction) = (point.normal, u_direction);
+        if self.twosided {
+            let behind = u_direction.x >= 0.5;
+            normal = if behind { -normal } else { normal };
+            u_direction.x = 2.0 * u_direction.x - if behind { 1.0 } else { 0.0 };
+        }
+        let frame = etalon_math::Frame::from_normal(normal);
         let direction = frame.to_world(square_to_cosine_hemisphere(u_direction));
         let radiance = self.emitted(scene, &point, direction, wavelengths);
         // cos θ cancels against the density cos θ/π.
         (density > 0.0).then(|| Emission {
             ray: Ray::new(point.origin_along(direction), direction, 0.0),
-            weight: radiance * (core::f32::consts::PI / density),
+            weight: radiance * (core::f32::consts::PI / (density * self.share_of_side())),
             density: EmissionPdf {
                 origin: density,
-                ray: point.normal.dot(direction).max(0.0) * FRAC_1_PI,
+                ray: normal.dot(direction).max(0.0) * FRAC_1_PI * self.share_of_side(),
             },
             point,
             origin: LightKind::Surface,
@@ -206,16 +237,24 @@ impl LightModel for AreaLight {
     ) -> EmissionPdf {
         EmissionPdf {
             origin: 1.0 / shapes.area(self.shape, time),
-            ray: cos.max(0.0) * FRAC_1_PI,
+            ray: self.cos(cos).max(0.0) * FRAC_1_PI * self.share_of_side(),
         }
     }
 
     fn extent(&self, shapes: &impl Shapes) -> Option<LightExtent> {
-        Some(extent_of_shape(shapes, self.shape, 0.0))
+        let outer = extent_of_shape(shapes, self.shape, 0.0);
+        Some(match self.twosided {
+            false => outer,
+            true => LightExtent {
+                normals: DirectionCone::ALL,
+                ..outer
+            },
+        })
     }
 
     fn power(&self, scene: &(impl Textures + Shapes), _: &BoundingSphere) -> f64 {
         let area = f64::from(scene.area(self.shape, 0.0));
-        core::f64::consts::PI * area * f64::from(scene.mean(self.radiance))
+        let sides = if self.twosided { 2.0 } else { 1.0 };
+        core::f64::consts::PI * sides * area * f64::from(scene.mean(self.radiance))
     }
 }

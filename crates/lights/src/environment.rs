@@ -1,7 +1,8 @@
-//! `envmap`: radiance from infinity, given by a latitude-longitude image.
+//! `envmap`: radiance from infinity, given by an image.
 //!
-//! The image has texels at u = (i + ½)/w and v = j/(h − 1): the first and last rows lie on the
-//! poles; a single row reaches from pole to pole. The radiances of the four texels around a
+//! The image is in latitude and longitude with texels at u = (i + ½)/w and v = j/(h − 1): the first and last rows lie on the
+//! poles; a single row reaches from pole to pole. With `mapping` `equalarea` it is the square of pbrt-v4's maps, with texels at
+//! (i + ½)/n. The radiances of the four texels around a
 //! direction are interpolated bilinearly,
 //!
 //! ```text
@@ -16,14 +17,17 @@
 //! Skřivan, Křivánek 2019, "MIS Compensation"), which leaves dark regions to scattering. All
 //! others, such as `direct` with `bsdf_samples` zero, and particles have the whole brightness.
 
-use crate::latitude_longitude as map;
+mod mapping;
+mod pixels;
+
+use self::mapping::Mapping;
+use self::pixels::Pixels;
 use crate::light_model::LightModel;
 use crate::pose::Pose;
 use crate::sky_image::SkyImage;
 use crate::{BoundingSphere, sky};
-use etalon_images::raster_file;
-use etalon_math::lane::{Lane, Mask, Select, Vector};
-use etalon_math::{Density, SolidAngle, float64};
+use etalon_math::lane::{Lane, Mask};
+use etalon_math::{Density, SolidAngle};
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::discrete::Bilinear;
 use etalon_spectrum::{Spectrum, Wavelengths};
@@ -31,46 +35,22 @@ use etalon_transport::{
     Build, Emission, EmissionPdf, LaneLightSample, LaneReceiver, LightSample, LightSampleContext,
     Shapes, Textures, file,
 };
-use glam::{UVec2, Vec2, Vec3, Vec4};
-use std::path::Path;
+use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
-
-/// The mean of sin πv over the hat function of each of `height` ≥ 2 rows at v = j/(h − 1), with
-/// k = π/(h − 1):
-///
-/// ```text
-/// sⱼ = sin(jk) · 2(1 − cos k)/k²,     s₀ = s₍ₕ₋₁₎ = (1 − sin k / k) · 2/k
-/// ```
-fn row_weights(height: usize) -> impl Fn(usize) -> f64 {
-    let k = core::f64::consts::PI / (height - 1) as f64;
-    // sin²(k/2) for (1 − cos k)/2, and a series for 1 − sin k / k where it would cancel.
-    let half = float64::sin(0.5 * k) / (0.5 * k);
-    let pole = if k < 1e-2 {
-        k / 3.0 * (1.0 - k * k / 20.0)
-    } else {
-        (1.0 - float64::sin(k) / k) * 2.0 / k
-    };
-    move |row| {
-        if row == 0 || row + 1 == height {
-            pole
-        } else {
-            float64::sin(row as f64 * k) * half * half
-        }
-    }
-}
 
 /// An image at infinity.
 #[derive(Clone, Debug)]
 pub struct EnvironmentMap {
     pose: Pose,
     scale: f32,
+    mapping: Mapping,
     image: Arc<SkyImage>,
     tables: Tables,
     /// Mean radiance over directions and wavelengths.
     mean: f64,
 }
 
-/// Distributions of directions over the moved unit square; `None` if the image is black.
+/// Distributions of directions over the square of places; `None` if the image is black.
 #[derive(Clone, Debug)]
 struct Tables {
     /// MIS-compensated, for estimators that combine it with BSDF sampling.
@@ -81,7 +61,7 @@ struct Tables {
 }
 
 impl EnvironmentMap {
-    /// Reads `filename`, `scale`, `to_world`, `mis_compensation`, and `gamma` as `bitmap` has it.
+    /// Reads `filename`, `mapping`, `scale`, `to_world`, `mis_compensation`, and `gamma` as `bitmap` has it.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let scale = params.float_where("scale", 1.0, "a finite number not below 0", |x| {
             x >= 0.0 && x.is_finite()
@@ -91,7 +71,10 @@ impl EnvironmentMap {
         let raw = file::is_linear(params);
         let filename = params.string("filename").unwrap_or_default();
         let what = "the name of an image file";
-        let pixels = file::read(params, build, what, |bytes| decode(bytes, raw, filename))?;
+        let choices = ["equirectangular", "equalarea"];
+        let poles = params.choice("mapping", choices[0], &choices) == choices[0];
+        let read = |bytes: &[u8]| pixels::decode(bytes, (raw, poles), filename);
+        let pixels = file::read(params, build, what, read)?;
         let span = file::span_of_filename(params);
         for note in &pixels.notes {
             let message = format!("`{filename}`: {note}");
@@ -104,19 +87,40 @@ impl EnvironmentMap {
             );
             params.diagnostics.push(Diagnostic::note(span, message));
         }
-        Some(Self::new(pose?, scale as f32, &pixels, compensated))
+        let size = pixels.size;
+        if !poles && size.x != size.y {
+            let message = format!(
+                "`{filename}` has {} × {} pixels: an image in the equal-area `mapping` is a square",
+                size.x, size.y
+            );
+            params.error_at("filename", message);
+            return None;
+        }
+        let mapping = match poles {
+            true => Mapping::LatitudeLongitude {
+                half_texel: 0.5 / size.x as f32,
+            },
+            false => Mapping::EqualArea {
+                side: size.x as f32,
+            },
+        };
+        Some(Self::new(
+            pose?,
+            scale as f32,
+            mapping,
+            &pixels,
+            compensated,
+        ))
     }
 
-    fn new(pose: Pose, scale: f32, pixels: &Pixels, compensated: bool) -> Self {
+    fn new(pose: Pose, scale: f32, mapping: Mapping, pixels: &Pixels, compensated: bool) -> Self {
         let (width, height) = (pixels.size.x as usize, pixels.size.y as usize);
-        let sine = row_weights(height);
         let brightness = |rgb: &[f32; 3]| rgb.iter().map(|&c| f64::from(c)).sum::<f64>() / 3.0;
+        let solid_angle = mapping.solid_angles(height);
         let mut sums = [0.0; 3];
         let mut least = f64::INFINITY;
         for (row, texels) in pixels.rgb.chunks_exact(width).enumerate() {
-            // Half of the hat function of a row at a pole lies beyond it.
-            let at_pole = row == 0 || row + 1 == height;
-            let share = sine(row) * if at_pole { 0.5 } else { 1.0 };
+            let share = solid_angle(row);
             for rgb in texels {
                 let value = brightness(rgb);
                 least = least.min(value);
@@ -132,16 +136,18 @@ impl EnvironmentMap {
         } else {
             0.0
         };
+        let (size, nodes) = mapping.nodes(pixels.size, &pixels.rgb);
+        let columns = size.x as usize;
+        let weight = mapping.row_weights(height);
         let table = |offset: f64| {
-            let mut nodes = Vec::with_capacity((width + 1) * height);
-            for (row, texels) in pixels.rgb.chunks_exact(width).enumerate() {
-                let node =
-                    |rgb: &[f32; 3]| ((brightness(rgb) - offset).max(0.0) * sine(row)) as f32;
-                nodes.extend(texels.iter().map(node));
-                // The image is periodic.
-                nodes.push(node(&texels[0]));
-            }
-            Bilinear::new(&nodes, width + 1).ok().map(Arc::new)
+            let density = |(row, nodes): (usize, &[[f32; 3]])| {
+                let weight = weight(row);
+                let of_node = |rgb| ((brightness(rgb) - offset).max(0.0) * weight) as f32;
+                nodes.iter().map(of_node).collect::<Vec<_>>()
+            };
+            let rows = nodes.chunks_exact(columns).enumerate();
+            let densities: Vec<f32> = rows.flat_map(density).collect();
+            Bilinear::new(&densities, columns).ok().map(Arc::new)
         };
         let alone = table(0.0);
         let combined = if offset > 0.0 {
@@ -153,26 +159,14 @@ impl EnvironmentMap {
         Self {
             pose,
             scale,
-            image: Arc::new(SkyImage::new(pixels.size, &pixels.rgb)),
+            mapping,
+            image: Arc::new(SkyImage::new(size, &nodes)),
             tables: Tables { combined, alone },
             mean: sums[1] / sums[2] * white * f64::from(scale),
         }
     }
 
-    /// The unit square of `map`, moved so that u begins at the centre of the first column.
-    #[inline(always)]
-    fn place<F: Lane>(&self, local: F::Vector) -> [F; 2] {
-        let [u, v] = map::to_square::<F>(local);
-        let u = u - self.half_texel();
-        [u.lt(F::ZERO).select(u + 1.0, u), v]
-    }
-
-    #[inline]
-    fn half_texel(&self) -> f32 {
-        0.5 / self.image.size().x as f32
-    }
-
-    /// Radiance at moved places, at the wavelengths `lambda(i)` in lane i.
+    /// Radiance at places, at the wavelengths `lambda(i)` in lane i.
     #[inline(always)]
     fn radiance<F: Lane>(&self, place: [F; 2], lambda: impl Fn(usize) -> Vec4) -> F::Spectrum {
         self.image.radiance(place, lambda) * F::splat(self.scale)
@@ -188,7 +182,7 @@ impl EnvironmentMap {
     #[inline]
     fn density_of(&self, directions: Option<&Bilinear>, direction: Vec3) -> f32 {
         let local = self.pose.to_local(direction);
-        self.density_at::<f32>(directions, local, self.place::<f32>(local))
+        self.density_at::<f32>(directions, local, self.mapping.place(local))
     }
 
     /// The densities (sr⁻¹) of directions in the map's space and their places.
@@ -202,11 +196,8 @@ impl EnvironmentMap {
         let Some(directions) = directions else {
             return F::ZERO;
         };
-        let [x, _, z] = local.xyz();
-        let sin_theta = (x * x + z * z).sqrt();
         let per_area = F::from_fn(|i| directions.density(Vec2::new(u.lane(i), v.lane(i))));
-        let density = per_area / map::stretch(sin_theta);
-        sin_theta.gt(F::ZERO).select(density, F::ZERO)
+        self.mapping.per_solid_angle(per_area, local, [u, v])
     }
 
     /// Directions, of lanes where they are `wanted`, with their places and densities (sr⁻¹); 0 where there is none.
@@ -222,16 +213,11 @@ impl EnvironmentMap {
             false => Vec2::ZERO,
         });
         let places = places.as_ref();
-        let [x, y] = [0, 1].map(|k| F::from_fn(|i| places[i][k]));
-        let (local, sin_theta) = map::to_direction([x + self.half_texel(), y]);
+        let chosen = [0, 1].map(|k| F::from_fn(|i| places[i][k]));
+        let (local, place) = self.mapping.direction(chosen);
         let per_area = F::from_fn(|i| directions.density(places[i]));
-        let density = per_area / map::stretch(sin_theta);
-        let exists = sin_theta.gt(F::ZERO) & density.gt(F::ZERO);
-        (
-            self.pose.to_world_lanes::<F>(local),
-            [x, y],
-            exists.select(density, F::ZERO),
-        )
+        let density = self.mapping.per_solid_angle(per_area, local, place);
+        (self.pose.to_world_lanes::<F>(local), place, density)
     }
 
     /// One direction; `None` where there is none.
@@ -268,7 +254,7 @@ impl LightModel for EnvironmentMap {
 
     #[inline]
     fn background(&self, _: &impl Textures, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        let place = self.place::<f32>(self.pose.to_local(direction));
+        let place = self.mapping.place(self.pose.to_local(direction));
         self.radiance::<f32>(place, |_| wavelengths.lambda)
     }
 
@@ -281,7 +267,7 @@ impl LightModel for EnvironmentMap {
         wavelengths: &[Wavelengths],
     ) -> (F::Spectrum, F) {
         let local = self.pose.to_local_lanes::<F>(direction);
-        let place = self.place(local);
+        let place = self.mapping.place(local);
         // Receivers in lanes combine it with scattering.
         let directions = self.tables.combined.as_deref();
         (
@@ -358,52 +344,4 @@ impl LightModel for EnvironmentMap {
     fn power(&self, _: &(impl Textures + Shapes), bounds: &BoundingSphere) -> f64 {
         4.0 * core::f64::consts::PI * bounds.cross_section() * self.mean
     }
-}
-
-/// Linear Rec.709 pixels, row after row from the top; at least two rows.
-struct Pixels {
-    size: UVec2,
-    rgb: Vec<[f32; 3]>,
-    /// Number of texels with negative components, which became zero.
-    negative: usize,
-    /// Remarks about the file.
-    notes: Vec<String>,
-}
-
-fn decode(bytes: &[u8], raw: bool, filename: &str) -> Result<Pixels, String> {
-    let raster =
-        raster_file::decode(bytes, Path::new(filename)).map_err(|error| error.to_string())?;
-    let (width, height) = (raster.width(), raster.height());
-    let channels = raster.channels();
-    let values = match raw {
-        true => raster.to_floats(),
-        false => raster.to_linear(),
-    };
-    let mut negative = 0;
-    let mut rgb = Vec::with_capacity(width * height);
-    for (i, pixel) in values.chunks_exact(channels).enumerate() {
-        let colour = if channels < 3 {
-            [pixel[0]; 3]
-        } else {
-            [pixel[0], pixel[1], pixel[2]]
-        };
-        if colour.iter().any(|c| !c.is_finite()) {
-            let (x, y) = (i % width, i / width);
-            return Err(format!(
-                "the pixel in column {x} of row {y} of `{filename}` is not finite (both counted from 0)"
-            ));
-        }
-        negative += usize::from(colour.iter().any(|&c| c < 0.0));
-        rgb.push(colour.map(|c| c.max(0.0)));
-    }
-    if height == 1 {
-        // The same from pole to pole.
-        rgb.extend_from_within(..);
-    }
-    Ok(Pixels {
-        size: UVec2::new(width as u32, height.max(2) as u32),
-        rgb,
-        negative,
-        notes: raster.notes(false).map(str::to_owned).collect(),
-    })
 }

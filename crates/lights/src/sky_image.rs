@@ -1,4 +1,4 @@
-//! The image of an environment map: smooth spectra at texels, interpolated bilinearly.
+//! The image of an environment map: smooth spectra at nodes, interpolated bilinearly.
 
 use etalon_math::lane::{Int, Lane, Select, Spectral};
 use etalon_spectrum::{RgbCoefficients, illuminants};
@@ -18,29 +18,22 @@ struct Cell<F: Lane> {
 }
 
 impl SkyImage {
-    /// Of colours with components not below zero, row by row.
+    /// At least two columns and rows of nodes, of colours with components not below zero, row by row.
     pub(crate) fn new(size: UVec2, rgb: &[[f32; 3]]) -> Self {
         let texels = rgb.iter().map(|&rgb| texel(rgb)).collect();
         Self { size, texels }
     }
 
-    /// Columns and rows.
-    #[inline]
-    pub(crate) fn size(&self) -> UVec2 {
-        self.size
-    }
-
-    /// The cells at places of the unit square whose u begins at the centre of the first column.
+    /// The cells at places of the unit square, whose borders the outer nodes lie on.
     #[inline(always)]
     fn cell<F: Lane>(&self, [u, v]: [F; 2]) -> Cell<F> {
         let UVec2 { x: w, y: h } = self.size;
-        let (x, y) = (u * w as f32, v * (h - 1) as f32);
+        let (x, y) = (u * (w - 1) as f32, v * (h - 1) as f32);
         let within =
             |i: F::Int, end: u32| i.lt(F::Int::splat(end)).select(i, F::Int::splat(end - 1));
-        let (i, j) = (within(x.to_int(), w), within(y.to_int(), h - 1));
+        let (i, j) = (within(x.to_int(), w - 1), within(y.to_int(), h - 1));
         let (a, b) = (x - F::from_int(i), y - F::from_int(j));
         let next = i.wrapping_add(F::Int::splat(1));
-        let next = next.lt(F::Int::splat(w)).select(next, F::Int::splat(0));
         let row = j.wrapping_mul(F::Int::splat(w));
         let below = row.wrapping_add(F::Int::splat(w));
         let (left, top) = (F::ONE - a, F::ONE - b);
@@ -55,7 +48,7 @@ impl SkyImage {
         }
     }
 
-    /// Σ wᵢ mᵢ sᵢ(λ) · D65(λ) at places of the unit square whose u begins at the centre of the first column, at the wavelengths `lambda(i)` in lane i.
+    /// Σ wᵢ mᵢ sᵢ(λ) · D65(λ) at places of the unit square, at the wavelengths `lambda(i)` in lane i.
     #[inline(always)]
     pub(crate) fn radiance<F: Lane>(
         &self,

@@ -9,6 +9,7 @@ pub mod bracket;
 pub mod cone;
 pub mod cross;
 pub mod density;
+pub mod equal_area;
 pub mod expression;
 pub mod float;
 pub mod float64;

@@ -80,5 +80,6 @@ fn document(reader: &mut Reader<'_>, path: &Path) -> Option<Document> {
         files: std::mem::take(&mut reader.files),
         parameters: reader.parameters.values(),
         meshes: Vec::new(),
+        embedded: Vec::new(),
     })
 }

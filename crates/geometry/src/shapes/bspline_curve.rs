@@ -1,4 +1,5 @@
-//! `bsplinecurve`: circles across a cubic B-spline, their radii one as well; open at its ends.
+//! `bsplinecurve`: circles across a cubic B-spline, their radii one as well; open at its ends. `beziercurve`: the same across cubic Bézier
+//! curves, each of which begins where the last one ends.
 //!
 //! A point p of the circle at u has (p − c)·c′ = 0 and |p − c| = r. With p = o + t·d the first gives
 //! t = q·c′/(d·c′), q = c − o, and with that the second is a polynomial of degree 10 for each cubic piece,
@@ -12,10 +13,12 @@
 //! (c′² − ρ·c″) ρ − r r′ c′, with ρ = p − c.
 
 use crate::shapes::analytic::crossing::Line;
-use crate::shapes::curves::{ControlPoint, CurvePoint, Segment};
+use crate::shapes::curves::{ControlPoint, CurvePoint, Curves, Segment};
 use core::ops::ControlFlow;
 use etalon_math::bernstein;
 use etalon_math::polynomial::quadratic;
+use etalon_params::Params;
+use etalon_transport::Build;
 use glam::DVec3;
 
 /// A cubic piece of a B-spline, in Bézier form.
@@ -56,6 +59,21 @@ fn dot<const M: usize, const N: usize, const L: usize>(a: &[DVec3; M], b: &[DVec
 }
 
 impl RoundSpline {
+    /// Reads `filename` and `to_world` of `beziercurve`.
+    pub(crate) fn bezier_curves(
+        params: &Params<'_>,
+        build: &mut dyn Build,
+    ) -> Option<Curves<Self>> {
+        Curves::in_steps(params, build, (3, Self::of_bezier))
+    }
+
+    fn of_bezier(points: &[ControlPoint]) -> Self {
+        Self {
+            c: core::array::from_fn(|i| points[i].position),
+            r: core::array::from_fn(|i| points[i].radius),
+        }
+    }
+
     fn derivative(&self) -> [DVec3; 3] {
         core::array::from_fn(|i| 3.0 * (self.c[i + 1] - self.c[i]))
     }

@@ -1,4 +1,4 @@
-//! Curves from files, such as hair: the common part of `linearcurve` and `bsplinecurve`.
+//! Curves from files, such as hair: the common part of `linearcurve`, `bsplinecurve` and `beziercurve`.
 //!
 //! `to_world` maps points; radii are world lengths and not scaled. Each segment is a primitive. Curves are seen from
 //! outside only, as in Mitsuba, and cannot be lights.
@@ -56,8 +56,17 @@ pub struct Curves<S> {
 }
 
 impl<S: Segment> Curves<S> {
-    /// Reads `filename` and `to_world`.
+    /// Reads `filename` and `to_world`; each control point begins a segment.
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        Self::in_steps(params, build, (1, S::new))
+    }
+
+    /// The same where a segment begins after so many control points, and is made of them so.
+    pub(crate) fn in_steps(
+        params: &Params<'_>,
+        build: &mut dyn Build,
+        rule: (usize, fn(&[ControlPoint]) -> S),
+    ) -> Option<Self> {
         let placement = Placement::from_params(params);
         let what = "the file of control points";
         let file = file::read(params, build, what, control_points::parse)?;
@@ -72,17 +81,26 @@ impl<S: Segment> Curves<S> {
         let refuse = |reason: String| {
             params.error_at("filename", format!("`{name}` cannot be used: {reason}"));
         };
-        Self::new(&file, &placement?).map_err(refuse).ok()
+        Self::new(&file, &placement?, rule).map_err(refuse).ok()
     }
 
     /// Curves through control points; the error names the line.
-    fn new(file: &ControlPoints, placement: &Placement) -> Result<Self, String> {
+    fn new(
+        file: &ControlPoints,
+        placement: &Placement,
+        (step, segment): (usize, fn(&[ControlPoint]) -> S),
+    ) -> Result<Self, String> {
         let mut segments = Vec::new();
         for (points, end) in &file.strands {
             let (count, least) = (points.len(), S::POINTS);
             if count < least {
                 return Err(format!(
                     "line {end}: the curve that ends here has {count} control points; it takes {least} or more"
+                ));
+            }
+            if !(count - least).is_multiple_of(step) {
+                return Err(format!(
+                    "line {end}: the curve that ends here has {count} control points; it takes {least} and {step} for each further piece"
                 ));
             }
             let placed = points.iter().map(|point| ControlPoint {
@@ -95,7 +113,7 @@ impl<S: Segment> Curves<S> {
                     "line {end}: the curve that ends here lies too far away"
                 ));
             }
-            segments.extend(placed.windows(least).map(S::new));
+            segments.extend(placed.windows(least).step_by(step).map(segment));
         }
         Ok(Self { segments })
     }

@@ -1,6 +1,6 @@
 //! Curves from files against dense sampling: of the balls of a polyline, and of the circles of a spline.
 
-use crate::description::{good_curves, make};
+use crate::description::{curve_file, good_curves, make};
 use crate::things::{Random, geometry_of};
 use etalon_geometry::Shape;
 use etalon_params::Value;
@@ -8,7 +8,10 @@ use etalon_transport::Ray;
 use glam::DVec3;
 
 fn file(plugin: &str) -> Shape {
-    let (shape, messages) = make(plugin, vec![("filename", Value::String("good".into()))]);
+    let (shape, messages) = make(
+        plugin,
+        vec![("filename", Value::String(curve_file(plugin).into()))],
+    );
     shape.unwrap_or_else(|| panic!("{messages}"))
 }
 
@@ -84,9 +87,10 @@ fn outside_of_circles(p: DVec3) -> f64 {
 #[test]
 fn first_entries_are_found() {
     type Outside = fn(DVec3) -> f64;
-    let kinds: [(&str, Outside); 2] = [
+    let kinds: [(&str, Outside); 3] = [
         ("linearcurve", outside_of_balls),
         ("bsplinecurve", outside_of_circles),
+        ("beziercurve", outside_of_circles),
     ];
     for (plugin, outside) in kinds {
         let geometry = geometry_of([file(plugin)]);
@@ -173,6 +177,7 @@ fn mistakes() {
     assert!(messages("linearcurve", "short").contains("line 5"));
     assert!(messages("linearcurve", "words").contains("line 1: `0 0 zero 1`"));
     assert!(messages("bsplinecurve", "three").contains("4 or more"));
+    assert!(messages("beziercurve", "good").contains("it takes 4 and 3 for each further piece"));
     assert!(messages("bsplinecurve", "absent").contains("no file `absent`"));
     let (shape, messages) = make("linearcurve", Vec::new());
     assert!(shape.is_none() && messages.contains("filename"));

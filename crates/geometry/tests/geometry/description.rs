@@ -25,6 +25,7 @@ impl Assets for Files {
     fn bytes(&self, path: &str) -> Result<Arc<Vec<u8>>, AssetError> {
         let text = match path {
             "good" => good_curves(),
+            "bezier" => as_bezier(&good_curves()),
             "short" => "0 0 0 1\n1 0 0 1\n\n2 0 0 1".into(),
             "words" => "0 0 zero 1".into(),
             "volume" => return Ok(Arc::new(good_volume())),
@@ -76,6 +77,43 @@ pub(crate) fn good_curves() -> String {
         "-0.5 -0.3 -0.4 0.1\n-0.2 0.3 0 0.15\n0.3 0 0.2 0.05\n0.4 -0.4 0.1 0.1\n0.1 -0.5 -0.3 0.12";
     let second = "0.5 0.4 -0.5 0.05\n0.4 0.5 0 0.05\n0.4 0.5 0.3 0.2\n0.5 0.6 0.8 0.02";
     format!("{first}\n\n{second}")
+}
+
+/// The file of curves that is sound for a plugin.
+pub(crate) fn curve_file(plugin: &str) -> &'static str {
+    if plugin == "beziercurve" {
+        "bezier"
+    } else {
+        "good"
+    }
+}
+
+/// A file of B-splines as one of Bézier curves: (1 4 1 0, 0 4 2 0, 0 2 4 0, 0 1 4 1) / 6 of every four control points.
+pub(crate) fn as_bezier(splines: &str) -> String {
+    let number = |word: &str| word.parse::<f64>().expect("a number");
+    let mut text = String::new();
+    for spline in splines.split("\n\n") {
+        let points = spline
+            .lines()
+            .map(|line| line.split(' ').map(number).collect());
+        let points: Vec<Vec<f64>> = points.collect();
+        let mut pieces = vec![];
+        for (index, four) in points.windows(4).enumerate() {
+            let rows = [
+                [1.0, 4.0, 1.0, 0.0],
+                [0.0, 4.0, 2.0, 0.0],
+                [0.0, 2.0, 4.0, 0.0],
+                [0.0, 1.0, 4.0, 1.0],
+            ];
+            for row in &rows[usize::from(index > 0)..] {
+                let mixed = |axis: usize| (0..4).map(|k| row[k] * four[k][axis]).sum::<f64>() / 6.0;
+                let [x, y, z, r] = [0, 1, 2, 3].map(mixed);
+                pieces.push(format!("{x} {y} {z} {r}"));
+            }
+        }
+        text += &format!("{}\n\n", pieces.join("\n"));
+    }
+    text
 }
 
 /// A bicubic patch over the square [0, 3]².
@@ -225,10 +263,10 @@ fn every_plugin_takes_its_parameters() {
                 ("p1", Value::Vector(DVec3::X)),
                 ("radius", Value::Integer(3)),
             ]),
-            "linearcurve" | "bsplinecurve" => {
+            "linearcurve" | "bsplinecurve" | "beziercurve" => {
                 // Which are seen from outside only.
                 properties.remove(1);
-                properties.push(file("good"));
+                properties.push(file(curve_file(plugin)));
             }
             "bicubic" => properties.extend([
                 ("points", Value::String(good_patch())),
@@ -271,7 +309,8 @@ fn every_plugin_takes_its_parameters() {
 fn every_plugin_answers_alike() {
     for plugin in Shape::plugins() {
         let properties = match plugin {
-            "serialized" | "obj" | "ply" | "linearcurve" | "bsplinecurve" => vec![file("good")],
+            "serialized" | "obj" | "ply" => vec![file("good")],
+            "linearcurve" | "bsplinecurve" | "beziercurve" => vec![file(curve_file(plugin))],
             "bicubic" => vec![("points", Value::String(good_patch()))],
             "heightfield" => vec![file("picture")],
             "sdfgrid" => vec![file("volume")],
@@ -295,6 +334,7 @@ fn every_plugin_answers_alike() {
                     plugin,
                     "bilinear"
                         | "bsplinecurve"
+                        | "beziercurve"
                         | "linearcurve"
                         | "plane"
                         | "blob"

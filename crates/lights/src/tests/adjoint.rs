@@ -44,6 +44,7 @@ fn sky_file(world: &mut SmallWorld) {
     rgb[8 + 2] = [9.0, 6.0, 3.0];
     rgb[2 * 8 + 5] = [3.0, 3.0, 6.0];
     add_file(world, "sky.pfm", 8, &rgb);
+    add_file(world, "square.pfm", 6, &rgb[..36]);
 }
 
 /// Every light, above the patch.
@@ -58,6 +59,11 @@ fn lights() -> (SmallWorld, Vec<(&'static str, LightDescription)>) {
     let wide = || Value::Float(50.0);
     let file = || ("filename", Value::String("sky.pfm".into()));
     let turned = Value::Transform(DMat4::from_rotation_x(1.2) * DMat4::from_rotation_z(0.4));
+    let square = vec![
+        ("filename", Value::String("square.pfm".into())),
+        ("mapping", Value::String("equalarea".into())),
+        ("to_world", turned.clone()),
+    ];
     let position = Value::Vector(DVec3::new(0.3, 0.2, 1.0));
     let descriptions = vec![
         ("point", vec![("position", position)]),
@@ -113,6 +119,14 @@ fn lights() -> (SmallWorld, Vec<(&'static str, LightDescription)>) {
     let bright = vec![("sun_direction", sun), ("sun_aperture", Value::Float(3.0))];
     lights.push(("sunsky", light(&mut world, "sunsky", bright)));
     lights.push(("projector", light(&mut world, "projector", thrown)));
+    lights.push(("envmap", light(&mut world, "envmap", square)));
+    // It looks away from the patch, but shines behind itself, too.
+    world.rectangles.push((Vec3::new(-0.2, 0.1, 1.0), Vec3::Z));
+    let both = vec![
+        ("radiance", Value::Float(1.5)),
+        ("twosided", Value::Boolean(true)),
+    ];
+    lights.push(("area", light(&mut world, "area", both)));
     (world, lights)
 }
 

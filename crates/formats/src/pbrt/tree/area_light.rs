@@ -1,7 +1,7 @@
 //! Surfaces that shine (`lights.cpp`, `DiffuseAreaLight`): `area`.
 //!
-//! Both emit on the side of the normal. The radiance is L divided by its luminance (not for an `rgb`, see `spectrum`), times `scale`; a
-//! `power` Φ makes it Φ / (π A) times that, in which A is the area of one sphere, disk, cylinder, triangle or patch: pbrt makes a light of each,
+//! Both emit on the side of the normal, or with `twosided` on both. The radiance is L divided by its luminance (not for an `rgb`, see `spectrum`), times `scale`; a
+//! `power` Φ makes it Φ / (π A) times that, half of it on either side of two, in which A is the area of one sphere, disk, cylinder, triangle or patch: pbrt makes a light of each,
 //! so a mesh of n triangles has n Φ. Of quadrics A is measured in their own space, before the CTM. The colour of an `rgb` does not count in
 //! that either. An image is looked up by (u, v), counted from the bottom, between its texels.
 
@@ -39,16 +39,7 @@ impl<'a> Mapper<'a> {
         let power = params.float("power", -1.0);
         let image = params.string("filename");
         let spectrum = params.spectrum("L");
-        if params.boolean("twosided", false) {
-            let accepted = "false; a second shape that looks the other way shines there";
-            self.refuse_value(
-                params,
-                "twosided",
-                "lights that shine to both sides",
-                accepted,
-            );
-            return None;
-        }
+        let twosided = params.boolean("twosided", false);
         if has_alpha {
             self.refuse_value(params, "L", "shapes with `alpha` that shine", "no `alpha`");
             return None;
@@ -62,9 +53,13 @@ impl<'a> Mapper<'a> {
                 self.refuse_value(params, "power", what, accepted);
                 return None;
             };
-            factor *= power / (PI * area);
+            let sides = if twosided { 2.0 } else { 1.0 };
+            factor *= power / (PI * area * sides);
         }
-        let draft = Draft::of(params, Class::Emitter, "area");
+        let mut draft = Draft::of(params, Class::Emitter, "area");
+        if twosided {
+            draft = draft.from(params, "twosided", "twosided", Value::Boolean(true));
+        }
         if let Some(filename) = image {
             if params.has("L") {
                 params.error_at("filename", "a light has either `L` or `filename`");

@@ -46,8 +46,8 @@ impl<'a> Mapper<'a> {
                     "lights stand outside of `ObjectBegin`",
                 );
             }
-            parts.extend(self.shape_in(shape, false));
         }
+        parts.extend(self.shapes(&object.shapes, false));
         for instance in &object.instances {
             parts.extend(self.instance(instance));
         }

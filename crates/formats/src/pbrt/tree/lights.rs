@@ -5,7 +5,8 @@
 //! | point | `point` | scale, and Φ / 4π with a `power` Φ |
 //! | spot | `spot`, with the falloff smooth in the cosine | scale, and Φ / 2π[(1 − cos b) + (cos b − cos c)/2] |
 //! | distant | `directional`, from `from` to `to` | scale, and E with an `illuminance` E |
-//! | infinite | `constant` | scale, and E / π |
+//! | infinite with `L` | `constant` | scale, and E / π |
+//! | infinite with `filename` | `envmap` with the equal-area `mapping` | scale, and E over that of the image |
 //!
 //! Spectra are divided by their luminance, see `spectrum`. c is `coneangle`, b is `conedeltaangle` less.
 
@@ -14,8 +15,9 @@ use super::super::scene::Light;
 use super::Mapper;
 use super::area_light::light_scale;
 use super::node::{Draft, Given, given, vector, word};
+use super::picture::{Picture, luminance};
 use super::spectrum::Role;
-use etalon_math::float64;
+use etalon_math::{equal_area, float64};
 use etalon_params::{Class, DMat4, DVec3, Node, Value};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -30,7 +32,7 @@ impl<'a> Mapper<'a> {
             "point" => self.point(params, to_world),
             "spot" => self.spot(params, to_world),
             "distant" => self.distant(params, to_world),
-            "infinite" => self.infinite(params),
+            "infinite" => self.infinite(params, to_world),
             _ => {
                 let accepted = "point, spot, distant, infinite, and area lights";
                 self.refuse(params, "light", accepted);
@@ -128,23 +130,69 @@ impl<'a> Mapper<'a> {
         Some(draft.given("irradiance", irradiance))
     }
 
-    fn infinite(&mut self, params: &Parameters<'a>) -> Option<Draft> {
+    fn infinite(&mut self, params: &Parameters<'a>, to_world: DMat4) -> Option<Draft> {
         let scale = light_scale(params);
         let illuminance = params.float("illuminance", -1.0);
-        if params.has("portal") {
-            params.ignore(&["portal", "L"]);
-            self.refuse_value(params, "portal", "portals of infinite lights", "none");
-            return None;
+        if params.points3("portal").is_some() {
+            let message = "portals guide no light here: the sky is seen through all openings";
+            let help = "the picture is the same where the portal covers them all";
+            self.note(params.span("portal"), message, help);
         }
-        if params.has("filename") {
-            params.ignore(&["filename", "L"]);
-            self.refuse_value(params, "filename", "images of infinite lights", "`L`");
-            return None;
+        if let Some(filename) = params.string("filename") {
+            return self.sky_image(params, (filename, scale, illuminance), to_world);
         }
         let factor = scale * quotient(illuminance, PI);
         let radiance = self.light_spectrum(params, "L", factor)?;
         let draft = Draft::of(params, Class::Emitter, "constant");
         Some(draft.given("radiance", radiance))
+    }
+
+    /// An image at infinity, times a factor, or so that it has an illuminance if that is above 0.
+    fn sky_image(
+        &mut self,
+        params: &Parameters<'a>,
+        (filename, scale, illuminance): (&str, f64, f64),
+        to_world: DMat4,
+    ) -> Option<Draft> {
+        if params.has("L") {
+            params.ignore(&["L"]);
+            params.error_at("filename", "a light has either `L` or `filename`");
+            return None;
+        }
+        let scale = match illuminance > 0.0 {
+            true => scale * illuminance / self.illuminance_of_map(params, filename)?,
+            false => scale,
+        };
+        let draft = Draft::of(params, Class::Emitter, "envmap")
+            .from(params, "filename", "filename", word(filename))
+            .plain("mapping", word("equalarea"))
+            .from(params, "scale", "scale", Value::Float(scale));
+        let still = to_world == DMat4::IDENTITY;
+        Some(if still {
+            draft
+        } else {
+            draft.plain("to_world", Value::Transform(to_world))
+        })
+    }
+
+    /// What pbrt takes for the illuminance of a square map upon a surface that faces +z: Σ Y cos θ over the pixels above the horizon, each
+    /// of which counts for 2π over the number of all pixels (the solid angle that it has is twice that).
+    fn illuminance_of_map(&mut self, params: &Parameters<'a>, filename: &str) -> Option<f64> {
+        let Picture { width, rgb } = self.picture(params, filename)?;
+        let side = width as f64;
+        let above = rgb.iter().enumerate().map(|(i, &rgb)| {
+            let place = [i % width, i / width].map(|c| ((c as f64 + 0.5) / side) as f32);
+            let up = equal_area::to_direction::<f32>(place).z;
+            luminance(rgb) * f64::from(up.max(0.0))
+        });
+        let illuminance = above.sum::<f64>() * TAU / rgb.len() as f64;
+        if illuminance > 0.0 {
+            return Some(illuminance);
+        }
+        let message =
+            format!("`{filename}` is black above its horizon, and cannot have an illuminance");
+        params.error_at("illuminance", message);
+        None
     }
 }
 

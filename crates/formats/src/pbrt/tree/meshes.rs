@@ -67,10 +67,21 @@ impl<'a> Mapper<'a> {
         data: MeshData,
     ) -> Option<Draft> {
         let flat = data.normals.is_empty();
+        let draft = self.inline_mesh(params, wanted, data)?;
+        Some(shaded(draft, wanted, flat))
+    }
+
+    /// The same without saying how it is shaded and where its outside is.
+    pub(crate) fn inline_mesh(
+        &mut self,
+        params: &Parameters<'_>,
+        wanted: &Wanted<'_>,
+        data: MeshData,
+    ) -> Option<Draft> {
         let name = mesh_name(self.meshes.len());
         let draft = self.placed_form(params, wanted, "ply", DMat4::IDENTITY)?;
         self.meshes.push(Arc::new(data));
-        Some(shaded(draft.plain("filename", word(&name)), wanted, flat))
+        Some(draft.plain("filename", word(&name)))
     }
 }
 

@@ -13,6 +13,7 @@ mod bilinear;
 mod camera;
 mod coated;
 mod color_space;
+mod curves;
 mod dielectrics;
 mod film;
 mod filter;
@@ -20,12 +21,14 @@ mod hair;
 mod instances;
 mod integrator;
 mod lights;
+mod loop_subdivision;
 mod materials;
 mod media;
 mod meshes;
 mod metals;
 mod node;
 mod options;
+mod picture;
 mod placement;
 mod ply_mesh;
 mod quadrics;
@@ -39,6 +42,7 @@ mod subsurface;
 mod tests;
 mod texture_kinds;
 mod textures;
+mod turned_surfaces;
 
 use super::parameters::Parameters;
 use super::scene::{Entity, Scene};
@@ -64,6 +68,9 @@ pub(crate) struct Mapper<'a> {
     media: Vec<Option<Option<Arc<Node>>>>,
     groups: Vec<Option<Arc<Node>>>,
     meshes: Vec<Arc<MeshData>>,
+    /// Contents of files that the scene file has within.
+    embedded: Vec<Arc<Vec<u8>>>,
+    noted_flat_curves: bool,
     /// What the vertices of PLY files carry.
     ply_files: HashMap<String, Option<Carried>>,
     /// Files of spectra.
@@ -86,6 +93,7 @@ pub(crate) fn document(
         files: mapper.files,
         parameters: Vec::new(),
         meshes: mapper.meshes,
+        embedded: mapper.embedded,
     }
 }
 
@@ -102,6 +110,8 @@ impl<'a> Mapper<'a> {
             media: vec![None; scene.media.len()],
             groups: vec![None; scene.objects.len()],
             meshes: Vec::new(),
+            embedded: Vec::new(),
+            noted_flat_curves: false,
             ply_files: HashMap::new(),
             files: Vec::new(),
         }
@@ -118,9 +128,7 @@ impl<'a> Mapper<'a> {
         let mut parts: Vec<Arc<Node>> = Vec::new();
         parts.extend(self.integrator(integrator));
         parts.extend(self.sensor());
-        for shape in &self.scene.shapes {
-            parts.extend(self.shape(shape));
-        }
+        parts.extend(self.shapes(&self.scene.shapes, true));
         for light in &self.scene.lights {
             parts.extend(self.light(light));
         }

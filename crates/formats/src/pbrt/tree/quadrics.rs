@@ -5,31 +5,43 @@
 //! the same side. Of Etalon's shapes, the sphere is turned by a mirroring `to_world` by itself, as Mitsuba's is; disk and cylinder are not.
 //!
 //! Texture coordinates differ: v of Mitsuba's sphere runs from +z down, pbrt's from −z up. Where they matter, the sphere is mirrored along z, and
-//! its normals are turned back. Those of the disk are exchanged and cannot be had.
+//! its normals are turned back. Those of the disk are exchanged: where they matter, it is a mesh (`turned_surfaces`), as all parts of these shapes are.
 
 use super::super::parameters::Parameters;
 use super::Mapper;
 use super::node::vector;
 use super::placement::mirrors;
 use super::shapes::{Form, Wanted};
+use super::turned_surfaces::{self, ProfilePoint};
+use etalon_math::float64;
 use etalon_params::{DMat4, DVec3, Value};
+use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
-impl Mapper<'_> {
-    /// A whole sphere; `None` after a mistake.
-    pub(crate) fn sphere(&self, params: &Parameters<'_>, wanted: &Wanted<'_>) -> Option<Form> {
+impl<'a> Mapper<'a> {
+    /// A sphere, or a part of one; `None` after a mistake.
+    pub(crate) fn sphere(&mut self, params: &Parameters<'a>, wanted: &Wanted<'_>) -> Option<Form> {
         let radius = positive(params, "radius", 1.0);
-        let [low, high] = [("zmin", -radius), ("zmax", radius)].map(|(n, z)| params.float(n, z));
-        self.full_turn(params)?;
-        if low.min(high) > -radius || low.max(high) < radius {
-            let what = "parts of a `sphere`";
-            self.refuse_value(
-                params,
-                "zmin",
-                what,
-                "`zmin` at −radius and `zmax` at radius",
-            );
-            return None;
+        let [a, b] = [("zmin", -radius), ("zmax", radius)].map(|(n, z)| params.float(n, z));
+        let [low, high] = [a.min(b), a.max(b)].map(|z| z.clamp(-radius, radius));
+        let angle = full_angle(params);
+        if angle < TAU || low > -radius || high < radius {
+            let [from, to] = [low, high].map(|z| float64::acos(z / radius));
+            let count = turned_surfaces::pieces(from - to);
+            let point = |k: usize| {
+                let v = k as f64 / count as f64;
+                let (sin, cos) = float64::sin_cos(from + (to - from) * v);
+                // A pole is on the axis, whatever the rounding.
+                let normal = DVec2::new(if sin < 1e-12 { 0.0 } else { sin }, cos);
+                ProfilePoint {
+                    at: radius * normal,
+                    normal,
+                    v,
+                }
+            };
+            let profile: Vec<ProfilePoint> = (0..=count).map(point).collect();
+            let area = angle * radius * (high - low);
+            return self.turned_profile(params, wanted, &profile, [angle, area]);
         }
         let upside = match wanted.by_uv {
             true => DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0)),
@@ -44,36 +56,51 @@ impl Mapper<'_> {
         })
     }
 
-    /// A whole disk; `None` after a mistake.
-    pub(crate) fn disk(&self, params: &Parameters<'_>, wanted: &Wanted<'_>) -> Option<Form> {
+    /// A disk, or a part of one; `None` after a mistake.
+    pub(crate) fn disk(&mut self, params: &Parameters<'a>, wanted: &Wanted<'_>) -> Option<Form> {
         let radius = positive(params, "radius", 1.0);
         let height = params.float("height", 0.0);
-        self.full_turn(params)?;
-        if params.float("innerradius", 0.0) != 0.0 {
-            self.refuse_value(params, "innerradius", "`disk` with a hole", "0");
-            return None;
-        }
-        if wanted.by_uv || wanted.along_u {
-            let what = "texture coordinates of a `disk`";
-            let accepted = "materials without images, patterns and two roughnesses, or a mesh";
-            self.refuse_value(params, "radius", what, accepted);
-            return None;
+        let angle = full_angle(params);
+        let accepted = "a number from 0 to below `radius`";
+        let hole = params.float_where("innerradius", 0.0, accepted, |r| (0.0..radius).contains(&r));
+        let area = 0.5 * angle * (radius * radius - hole * hole);
+        if wanted.by_uv || wanted.along_u || hole > 0.0 || angle < TAU {
+            let point = |v: f64| ProfilePoint {
+                at: DVec2::new(radius + (hole - radius) * v, height),
+                normal: DVec2::Y,
+                v,
+            };
+            let profile = [point(0.0), point(1.0)];
+            return self.turned_profile(params, wanted, &profile, [angle, area]);
         }
         let size = DMat4::from_scale(DVec3::new(radius, radius, 1.0));
         let local = DMat4::from_translation(DVec3::new(0.0, 0.0, height)) * size;
         let draft = self.placed_form(params, wanted, "disk", local)?;
         Some(Form {
             drafts: vec![Wanted::flipped(draft, turned(wanted))],
-            area: Some(PI * radius * radius),
+            area: Some(area),
         })
     }
 
-    /// A whole cylinder; `None` after a mistake.
-    pub(crate) fn cylinder(&self, params: &Parameters<'_>, wanted: &Wanted<'_>) -> Option<Form> {
+    /// A cylinder, or a part of one; `None` after a mistake.
+    pub(crate) fn cylinder(
+        &mut self,
+        params: &Parameters<'a>,
+        wanted: &Wanted<'_>,
+    ) -> Option<Form> {
         let radius = positive(params, "radius", 1.0);
         let [a, b] = [("zmin", -1.0), ("zmax", 1.0)].map(|(name, z)| params.float(name, z));
-        self.full_turn(params)?;
+        let angle = full_angle(params);
         let ends = [a.min(b), a.max(b)];
+        let area = angle * radius * (ends[1] - ends[0]);
+        if angle < TAU {
+            let profile = [(ends[0], 0.0), (ends[1], 1.0)].map(|(z, v)| ProfilePoint {
+                at: DVec2::new(radius, z),
+                normal: DVec2::X,
+                v,
+            });
+            return self.turned_profile(params, wanted, &profile, [angle, area]);
+        }
         let draft = self.placed_form(params, wanted, "cylinder", DMat4::IDENTITY)?;
         let [low, high] = ends.map(|z| vector(DVec3::new(0.0, 0.0, z)));
         let draft = draft
@@ -82,19 +109,16 @@ impl Mapper<'_> {
             .from(params, "radius", "radius", Value::Float(radius));
         Some(Form {
             drafts: vec![Wanted::flipped(draft, turned(wanted))],
-            area: Some(TAU * radius * (ends[1] - ends[0])),
+            area: Some(area),
         })
     }
+}
 
-    /// Refuses what is not whole around the z axis.
-    fn full_turn(&self, params: &Parameters<'_>) -> Option<()> {
-        if params.float("phimax", 360.0) >= 360.0 {
-            return Some(());
-        }
-        let what = format!("parts of a `{}`", params.entity.kind);
-        self.refuse_value(params, "phimax", &what, "360");
-        None
-    }
+/// The angle about the z axis that is there, in radians.
+fn full_angle(params: &Parameters<'_>) -> f64 {
+    let accepted = "degrees above 0";
+    let degrees = params.float_where("phimax", 360.0, accepted, |phi| phi > 0.0);
+    degrees.min(360.0).to_radians()
 }
 
 /// `flip_normals` of a shape that Etalon turns around in no other way.

@@ -8,6 +8,7 @@
 use super::super::parameters::Parameters;
 use super::super::scene::Shape;
 use super::Mapper;
+use super::curves;
 use super::materials::Surface;
 use super::node::{Draft, Given, given};
 use super::placement::placed;
@@ -27,6 +28,8 @@ pub(crate) struct Form {
 pub(crate) struct Wanted<'s> {
     /// The shape.
     pub(crate) shape: &'s Shape,
+    /// Those that become one with it.
+    pub(crate) following: &'s [Shape],
     /// Whether anything is looked up by its texture coordinates.
     pub(crate) by_uv: bool,
     /// Whether anything depends on the direction in which u grows.
@@ -44,17 +47,25 @@ impl Wanted<'_> {
 }
 
 impl<'a> Mapper<'a> {
-    /// The nodes of a shape; none after a mistake.
-    pub(crate) fn shape(&mut self, shape: &'a Shape) -> Vec<Arc<Node>> {
-        self.shape_in(shape, true)
+    /// The nodes of shapes, with their lights or without; what has a mistake is left out.
+    pub(crate) fn shapes(&mut self, shapes: &'a [Shape], shine: bool) -> Vec<Arc<Node>> {
+        let mut nodes = Vec::new();
+        let mut rest = shapes;
+        while let Some(first) = rest.first() {
+            let (run, after) = rest.split_at(curves::run(rest));
+            nodes.extend(self.shape(first, &run[1..], shine).unwrap_or_default());
+            rest = after;
+        }
+        nodes
     }
 
-    /// The same, with its light or without.
-    pub(crate) fn shape_in(&mut self, shape: &'a Shape, shines: bool) -> Vec<Arc<Node>> {
-        self.complete_shape(shape, shines).unwrap_or_default()
-    }
-
-    fn complete_shape(&mut self, shape: &'a Shape, shines: bool) -> Option<Vec<Arc<Node>>> {
+    /// The nodes of a shape and of those that follow it and are one with it; `None` after a mistake.
+    fn shape(
+        &mut self,
+        shape: &'a Shape,
+        following: &'a [Shape],
+        shines: bool,
+    ) -> Option<Vec<Arc<Node>>> {
         let params = self.read(&shape.entity);
         let params = &params;
         let light = shape.area_light.as_deref().filter(|_| shines);
@@ -72,6 +83,7 @@ impl<'a> Mapper<'a> {
         let mut nodes = materials.clone().chain(holes);
         let wanted = Wanted {
             shape,
+            following,
             by_uv: nodes.any(|node| looks_at_uv(node))
                 || light.is_some_and(|l| l.params.find("filename").is_some()),
             along_u: materials.clone().any(|node| has_tangents(node)),
@@ -108,7 +120,7 @@ impl<'a> Mapper<'a> {
     }
 
     /// The form; `None` after a mistake.
-    fn form(&mut self, params: &Parameters<'a>, wanted: &Wanted<'_>) -> Option<Form> {
+    fn form(&mut self, params: &Parameters<'a>, wanted: &Wanted<'a>) -> Option<Form> {
         match params.entity.kind {
             "sphere" => self.sphere(params, wanted),
             "disk" => self.disk(params, wanted),
@@ -116,13 +128,10 @@ impl<'a> Mapper<'a> {
             "trianglemesh" => self.triangle_mesh(params, wanted),
             "plymesh" => self.ply_mesh(params, wanted),
             "bilinearmesh" => self.bilinear_mesh(params, wanted),
-            _ => {
-                let accepted = "sphere, disk, cylinder, trianglemesh, plymesh, bilinearmesh";
-                self.refuse(params, "shape", accepted);
-                // Nobody has read them.
-                params.entity.params.iter().for_each(|p| p.mark_used());
-                None
-            }
+            "loopsubdiv" => self.subdivided(params, wanted),
+            "curve" => self.curves(params, wanted),
+            // All that pbrt knows are above.
+            _ => None,
         }
     }
 

@@ -111,3 +111,60 @@ fn shapes_that_shine() {
     );
     assert!(light.contains("radiance: texture d65 {"), "{light}");
 }
+
+#[test]
+fn lights_of_two_sides() {
+    // Φ / (2π A) of a disk of the area π.
+    let text = r#"AreaLightSource "diffuse" "bool twosided" true "float power" 19.739208802178716 Shape "disk""#;
+    let root = sound(&format!("WorldBegin {text}")).root;
+    let shape = children(&root).pop().expect("a shape");
+    let light = shown(&children(&shape).pop().expect("an emitter"));
+    assert_eq!(
+        light,
+        "emitter area {\n    radiance: float 1.000000e0\n    twosided: boolean true\n}"
+    );
+}
+
+#[test]
+fn images_at_infinity() {
+    assert_light(
+        r#"Rotate 90 1 0 0 LightSource "infinite" "string filename" "a.exr" "float scale" 3"#,
+        r#"<emitter type="envmap"><string name="filename" value="a.exr"/><string name="mapping" value="equalarea"/>
+            <float name="scale" value="3"/><transform name="to_world"><rotate x="1" angle="90"/></transform></emitter>"#,
+    );
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    // 4 × 4 pixels of 4: pbrt takes Σ Y cos θ 2π/16. Those in the corners are below the horizon.
+    let header = b"PF\n4 4\n-1.0\n".to_vec();
+    let pixels = [4.0_f32; 48].iter().flat_map(|x| x.to_le_bytes());
+    let bytes: Vec<u8> = header.into_iter().chain(pixels).collect();
+    std::fs::write(folder.path().join("sky.pfm"), bytes).expect("written");
+    let path = folder.path().join("a.pbrt");
+    let text =
+        r#"WorldBegin LightSource "infinite" "string filename" "sky.pfm" "float illuminance" 10"#;
+    std::fs::write(&path, text).expect("written");
+    let outcome = pbrt::read(&path, &ReadOptions::default());
+    assert_eq!(outcome.lines(), "");
+    let light = children(&outcome.document.expect("a document").root)
+        .pop()
+        .expect("a light");
+    let scale = light
+        .properties
+        .iter()
+        .find(|p| p.name == "scale")
+        .map(|p| p.value.clone());
+    let Some(Value::Float(scale)) = scale else {
+        panic!("{}", shown(&light))
+    };
+    let up = |x: f32, y: f32| {
+        f64::from(
+            etalon_math::equal_area::to_direction::<f32>([x, y])
+                .z
+                .max(0.0),
+        )
+    };
+    let cosines: f64 = (0..16)
+        .map(|i| up((i % 4) as f32 * 0.25 + 0.125, (i / 4) as f32 * 0.25 + 0.125))
+        .sum();
+    let expected = 10.0 / (4.0 * cosines * std::f64::consts::TAU / 16.0);
+    assert!((scale / expected - 1.0).abs() < 1e-5, "{scale} {expected}");
+}

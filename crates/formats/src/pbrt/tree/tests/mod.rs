@@ -1,6 +1,7 @@
 //! Tests of the mapping: a text of pbrt against the XML that means the same.
 
 mod entities;
+mod forms;
 mod hostile;
 mod lights;
 mod materials;

@@ -124,15 +124,6 @@ fn alpha_is_a_mask() {
 }
 
 #[test]
-fn texture_coordinates_that_cannot_be_had() {
-    let outcome = world(
-        r#"Texture "t" "float" "imagemap" "string filename" "a.png" Shape "disk" "texture alpha" "t""#,
-    );
-    let expected = "a.pbrt:2:58: error: Etalon does not have pbrt's texture coordinates of a `disk` (accepted: materials without images, patterns and two roughnesses, or a mesh)";
-    assert_eq!(outcome.lines(), expected);
-}
-
-#[test]
 fn moving_shapes() {
     let moved = r#"<animation name="to_world">
         <transform time="0"><translate x="1"/></transform>
