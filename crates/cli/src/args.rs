@@ -172,6 +172,17 @@ Examples:
   etalon convert out.exr noise.png --channels standard_error
   etalon convert aov.exr depth.png --channels depth --range 0..20")]
     Convert(ConvertArgs),
+    /// Write a scene of pbrt-v4, or one with includes and parameters, as one file of Mitsuba's XML.
+    ///
+    /// What the scene file has within (meshes, curves, grids) becomes files beside the output; other files stay where they are. The
+    /// picture is the same. What Mitsuba 3 does not have stands there as Etalon's own plugin (docs/extensions.md).
+    #[command(after_help = "\
+Exit codes: 0 done, 2 bad input or usage.
+
+Examples:
+  etalon convert-scene scene.pbrt scene.xml
+  etalon convert-scene old.xml new.xml")]
+    ConvertScene(ConvertSceneArgs),
     /// Look at an image in the browser, or at two and their difference.
     ///
     /// A page on this machine with exposure, zoom, pixel values, standard errors and all layers; a file that changes is
@@ -372,6 +383,15 @@ pub struct ConvertArgs {
     /// Show A as black and B as white, in proportion, as depths, normals and errors want it: 0..10 or -1..1.
     #[arg(long, value_name = "A..B", value_parser = parse_range, allow_hyphen_values = true, conflicts_with_all = ["exposure", "view"])]
     pub range: Option<[f64; 2]>,
+}
+
+/// Arguments of `convert-scene`.
+#[derive(Debug, Args, Clone)]
+pub struct ConvertSceneArgs {
+    /// The scene to read (.pbrt, .pbrt.gz, .xml).
+    pub input: PathBuf,
+    /// The scene to write (.xml).
+    pub output: PathBuf,
 }
 
 /// Arguments of `movie`.

@@ -183,6 +183,30 @@ impl Motion {
         after
     }
 
+    /// Moments and maps between which straight interpolation gives this motion: exactly where it is straight, within the square of 1/`pieces` of
+    /// the way where it is a curve. A leap is one within 10⁻⁹ of the time between its keys.
+    pub fn straight_keys(&self, pieces: usize) -> Vec<(f64, DMat4)> {
+        let mut keys = Vec::new();
+        for (piece, span) in self.parts.pieces.iter().zip(self.parts.times.windows(2)) {
+            let [start, end] = [span[0], span[1]];
+            let shares: Vec<f64> = match piece {
+                Piece::Line(_) => vec![0.0],
+                Piece::Constant(_) => vec![0.0, 1.0 - 1e-9],
+                Piece::Cubic(_) => (0..pieces).map(|i| i as f64 / pieces as f64).collect(),
+            };
+            let key = |share: f64| {
+                (
+                    start + (end - start) * share,
+                    parts_on(piece, share).map().into(),
+                )
+            };
+            keys.extend(shares.into_iter().map(key));
+        }
+        let last = self.parts.times.last().copied().unwrap_or(0.0);
+        keys.push((last, self.parts.last.map().into()));
+        keys
+    }
+
     /// The maps of the keys.
     pub fn keys(&self) -> &[DMat4] {
         &self.keys

@@ -4,6 +4,7 @@ mod again;
 pub mod compare;
 pub mod conform;
 pub mod convert;
+pub mod convert_scene;
 mod delivery;
 pub mod denoise;
 pub mod estimators;
@@ -46,6 +47,7 @@ pub fn run(command: &Command) -> ExitCode {
         Command::Estimators(args) => estimators::run(args),
         Command::Denoise(args) => denoise::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::ConvertScene(args) => convert_scene::run(args),
         Command::View(args) => view::run(args),
         Command::Movie(args) => movie::run(args),
         Command::Info(args) => info::run(args),

@@ -30,12 +30,14 @@ pub(crate) mod transform;
 mod upgrade;
 mod value;
 mod version;
+mod write;
 
 use crate::SearchPath;
 use crate::document::{Document, ReadOptions, ReadOutcome};
 use reader::Reader;
 use std::path::{Path, PathBuf};
 pub use upgrade::underscored;
+pub use write::{WrittenScene, write};
 
 /// Reads the scene file at `path`.
 pub fn read(path: &Path, options: &ReadOptions) -> ReadOutcome {

@@ -14,6 +14,7 @@ mod faces;
 mod group;
 mod header;
 mod source;
+mod write;
 
 use crate::mesh_error::{MeshError, Place};
 use crate::unused;
@@ -23,6 +24,7 @@ use glam::Vec2;
 use group::groups;
 use header::{Element, Header, Kind, Property};
 use source::Source;
+pub use write::write;
 
 /// The names of texture coordinates.
 const UV_NAMES: [[&str; 2]; 4] = [

@@ -1,4 +1,4 @@
-//! Participating media (`media.cpp`): `homogeneous`, with the phase function of Henyey and Greenstein.
+//! Participating media (`media.cpp`): `homogeneous` (others in `grid_media`), with the phase function of Henyey and Greenstein.
 //!
 //! σₐ and σₛ are per unit of length in both, 1 by default in pbrt; g means the same; those that pbrt has by name are Etalon's. What a
 //! medium emits is σₐ Lₑ in both, Lₑ divided by its luminance and times `Lescale`.
@@ -22,16 +22,23 @@ impl<'a> Mapper<'a> {
         let medium = &scene.media[id];
         let params = self.read(&medium.entity);
         let found = match params.entity.kind {
-            "homogeneous" => {
-                let found = self.homogeneous(&params);
-                params.finish();
-                found
-            }
+            "homogeneous" => self.homogeneous(&params),
+            "uniformgrid" => self.uniform_grid(&params, medium),
+            "rgbgrid" => self.rgb_grid(&params, medium),
+            "nanovdb" => self.nanovdb(&params, medium),
             _ => {
-                self.refuse(&params, "medium", "homogeneous");
+                self.refuse(
+                    &params,
+                    "medium",
+                    "homogeneous, uniformgrid, rgbgrid, nanovdb",
+                );
+                params.entity.params.iter().for_each(|p| p.mark_used());
                 None
             }
         };
+        if found.is_some() {
+            params.finish();
+        }
         self.media[id] = Some(found.clone());
         found
     }
@@ -69,7 +76,7 @@ impl<'a> Mapper<'a> {
 }
 
 /// Whether a spectrum is no light at all, which pbrt admits here.
-fn is_dark(spectrum: &SpectrumValue<'_>) -> bool {
+pub(crate) fn is_dark(spectrum: &SpectrumValue<'_>) -> bool {
     match spectrum {
         SpectrumValue::Rgb(rgb, _) => *rgb == [0.0; 3],
         SpectrumValue::Samples(samples) => samples.iter().all(|[_, value]| *value == 0.0),

@@ -17,6 +17,7 @@ mod curves;
 mod dielectrics;
 mod film;
 mod filter;
+mod grid_media;
 mod hair;
 mod instances;
 mod integrator;

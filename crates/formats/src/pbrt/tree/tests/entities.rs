@@ -65,8 +65,14 @@ fn every_type_is_mapped_or_named() {
         assert_mapped_or_named(kind, &format!("WorldBegin Shape \"{kind}\" {parameters}"));
     }
     for kind in kinds::MEDIUM.names() {
+        let parameters = match *kind {
+            "uniformgrid" => "\"float density\" 1",
+            "rgbgrid" => "\"rgb sigma_s\" [ 1 1 1 ]",
+            "nanovdb" => "\"string filename\" \"a.nvdb\"",
+            _ => "",
+        };
         let text = format!(
-            "WorldBegin MakeNamedMedium \"m\" \"string type\" \"{kind}\" MediumInterface \"m\" \"\" Shape \"sphere\""
+            "WorldBegin MakeNamedMedium \"m\" \"string type\" \"{kind}\" {parameters} MediumInterface \"m\" \"\" Shape \"sphere\""
         );
         assert_mapped_or_named(kind, &text);
     }

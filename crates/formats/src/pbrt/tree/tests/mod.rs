@@ -2,6 +2,7 @@
 
 mod entities;
 mod forms;
+mod grids;
 mod hostile;
 mod lights;
 mod materials;
@@ -10,6 +11,7 @@ mod scenes;
 mod settings;
 mod shapes;
 mod textures;
+mod written;
 
 use crate::{Document, ReadOptions, ReadOutcome, mitsuba, pbrt};
 use etalon_params::{Node, SpectrumText, Value};
