@@ -3,6 +3,7 @@
 //! ```text
 //! visible(wo, m) = G1(wo, m) |wo·m| D(m) / |cos θo|     (Heitz 2014, eq. 2)
 //! G(wo, wi, m)   = G1(wo, m) · G1(wi, m)                (Smith 1967, separable)
+//!              or  1 / (1/G1(wo, m) + 1/G1(wi, m) − 1)  (correlated by height; Heitz 2014, eq. 99)
 //! ```
 //!
 //! D and G1 are those of Beckmann (1963) and of Trowbridge & Reitz (1975), "GGX", with roughness
@@ -39,6 +40,9 @@ pub struct Microfacet<F: Lane = f32> {
     /// Whether normals are sampled as they are seen from `wo` or, as older renderers do, as
     /// they are on the surface.
     pub sample_visible: F::Mask,
+    /// Whether a facet that is seen from one direction is the likelier to be seen from another, as a high one is: then
+    /// masking and shadowing are correlated. Otherwise they are independent.
+    pub correlated: F::Mask,
 }
 
 impl Microfacet {
@@ -62,6 +66,16 @@ impl<F: Lane> Microfacet<F> {
             is_ggx: F::Mask::from_fn(|i| kind(i) == Kind::Ggx),
             alpha: [alpha[0].max(least), alpha[1].max(least)],
             sample_visible: F::Mask::from_fn(sample_visible),
+            correlated: F::Mask::splat(false),
+        }
+    }
+
+    /// The same distributions with masking and shadowing correlated, where that is asked for.
+    #[inline(always)]
+    pub fn with_correlated(self, correlated: impl Fn(usize) -> bool) -> Self {
+        Self {
+            correlated: F::Mask::from_fn(correlated),
+            ..self
         }
     }
 
@@ -72,6 +86,7 @@ impl<F: Lane> Microfacet<F> {
             is_ggx: F::Mask::from_fn(|i| at(i).is_ggx),
             alpha: [0, 1].map(|axis| F::from_fn(|i| at(i).alpha[axis])),
             sample_visible: F::Mask::from_fn(|i| at(i).sample_visible),
+            correlated: F::Mask::from_fn(|i| at(i).correlated),
         }
     }
 
@@ -121,7 +136,21 @@ impl<F: Lane> Microfacet<F> {
         in_front.select(share, F::ZERO)
     }
 
-    /// The same, exactly as the visible normals are distributed.
+    /// G(wo, wi, m), the share of microfacets with normal `m` that are visible from both directions, be they on the same
+    /// side or not (pbrt-v4, too, has one formula for both).
+    #[inline(always)]
+    pub fn g(&self, wo: F::Vector, wi: F::Vector, m: F::Vector) -> F {
+        let (masked, shadowed) = (self.g1(wo, m), self.g1(wi, m));
+        let both = masked * shadowed;
+        let least = F::splat(f32::MIN_POSITIVE);
+        branch!(
+            self.correlated,
+            both / (masked + shadowed - both).max(least),
+            both
+        )
+    }
+
+    /// [`Microfacet::g1`], exactly as the visible normals are distributed.
     #[inline(always)]
     fn g1_exact(&self, v: F::Vector) -> F {
         let t2 = self.projected_roughness2(v);
@@ -177,5 +206,42 @@ impl<F: Lane> Microfacet<F> {
     fn normal_of_slopes(&self, [x, y]: [F; 2]) -> F::Vector {
         let [alpha_x, alpha_y] = self.alpha;
         F::Vector::from_xyz(-(x * alpha_x), -(y * alpha_y), F::ONE).normalized()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    /// G of GGX by Λ(v) = (√(1 + α² tan² θ) − 1)/2 (Heitz 2014, eq. 72): 1/(1 + Λₒ)/(1 + Λᵢ) and 1/(1 + Λₒ + Λᵢ), the latter the
+    /// greater one; none for facets seen from behind. Rejects one rule for the other, and 0/0.
+    #[test]
+    fn both_rules_of_masking() {
+        let alpha = 0.4;
+        let separable = Microfacet::new(Kind::Ggx, Vec2::splat(alpha), true);
+        let correlated = separable.with_correlated(|_| true);
+        let lambda = |v: Vec3| {
+            let tan2 = f64::from((v.x * v.x + v.y * v.y) / (v.z * v.z));
+            0.5 * ((1.0 + f64::from(alpha * alpha) * tan2).sqrt() - 1.0)
+        };
+        for (wo, wi) in [
+            (Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.28, 0.0, 0.96)),
+            (Vec3::new(0.995, 0.0, 0.1), Vec3::new(-0.9, 0.3, 0.3)),
+            (Vec3::new(0.0, 0.6, 0.8), Vec3::new(0.0, -0.8, 0.6)),
+        ] {
+            let (wo, wi) = (wo.normalize(), wi.normalize());
+            let m = (wo + wi).normalize();
+            let (o, i) = (lambda(wo), lambda(wi));
+            let close = |found: f32, expected: f64| {
+                assert!(
+                    (f64::from(found) / expected - 1.0).abs() < 1e-5,
+                    "{wo} {wi}: {found} {expected}"
+                );
+            };
+            close(separable.g(wo, wi, m), 1.0 / ((1.0 + o) * (1.0 + i)));
+            close(correlated.g(wo, wi, m), 1.0 / (1.0 + o + i));
+            assert_eq!(correlated.g(wo, wi, -m), 0.0);
+        }
     }
 }

@@ -7,12 +7,13 @@
 //! with f the `srf` of the sensor (1 if there is none) and s, for each channel of the film,
 //!
 //! - `hdrfilm`: the CIE 1931 observer in linear Rec. 709, or a camera's measured curves, each scaled so that D65 is 1
-//!   (`response_red`, `response_green`, `response_blue`);
+//!   (`response_red`, `response_green`, `response_blue`); with `white_balance` the observer's colours are mapped so that a light of that
+//!   temperature is white;
 //! - `specfilm`: the curve of each band as it is, so that a band's unit is W·sr⁻¹·m⁻² where the curve is 1.
 
 use etalon_film::{FilmSettings, PixelFormat};
 use etalon_params::{Class, Params, Value};
-use etalon_spectrum::{Sensor, Spectrum};
+use etalon_spectrum::{Sensor, Spectrum, white_balance};
 use etalon_textures::Texture;
 use etalon_transport::{Build, SpectrumKind};
 
@@ -27,6 +28,8 @@ pub(crate) enum Response {
     /// The standard observer.
     #[default]
     Observer,
+    /// The standard observer with a white balance: a matrix in linear Rec. 709.
+    Balanced([[f64; 3]; 3]),
     /// A camera's red, green and blue.
     Camera(Box<[Spectrum; 3]>),
     /// Bands.
@@ -43,7 +46,23 @@ impl Response {
         if params.node.plugin.value == "specfilm" {
             return Self::bands(params, settings, builder);
         }
-        if !CURVES.iter().any(|name| params.has(name)) {
+        let has_curves = CURVES.iter().any(|name| params.has(name));
+        if let Some(kelvin) = params.float("white_balance") {
+            let balance = white_balance(kelvin).map(Self::Balanced);
+            if balance.is_none() {
+                let message = format!("`white_balance` cannot be {kelvin}");
+                let accepted = "accepted: the temperature of a light in kelvin, 1000 to 25000";
+                params.error_with_help("white_balance", &message, accepted);
+            }
+            if has_curves {
+                params.error_at(
+                    "white_balance",
+                    "a film has either `white_balance` or curves of its own",
+                );
+            }
+            return balance.filter(|_| !has_curves);
+        }
+        if !has_curves {
             return Some(Self::Observer);
         }
         let [red, green, blue] = CURVES.map(|name| curve(params, name, builder));
@@ -113,6 +132,7 @@ impl Response {
         match (self, filter) {
             (Self::Observer, None) => vec![Sensor::default()],
             (Self::Observer, Some(filter)) => vec![Sensor::behind(filter)],
+            (Self::Balanced(matrix), filter) => vec![Sensor::mapped(filter, *matrix)],
             (Self::Camera(curves), _) => vec![of_curves(&curves[..])],
             (Self::Bands(curves), _) => curves.chunks(3).map(of_curves).collect(),
         }

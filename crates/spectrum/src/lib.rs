@@ -26,6 +26,7 @@ mod tables;
 pub mod tabulated;
 pub mod upsample;
 pub mod wavelengths;
+mod white_balance;
 
 pub use blackbody::Blackbody;
 pub use error::SpectrumError;
@@ -38,6 +39,7 @@ pub use spectrum::Spectrum;
 pub use tabulated::{Irregular, Regular};
 pub use upsample::{RgbCoefficients, RgbSpectrum};
 pub use wavelengths::{WavelengthDistribution, Wavelengths};
+pub use white_balance::white_balance;
 
 /// Shortest wavelength rendered unless a scene asks otherwise, nm.
 pub const LAMBDA_MIN: f64 = 360.0;

@@ -108,15 +108,23 @@ impl Sensor {
         }
     }
 
-    /// The standard observer behind a filter of this transmittance.
-    pub fn behind(filter: &Spectrum) -> Self {
+    /// The standard observer behind a filter of this transmittance, if there is one, whose colours are then mapped by a matrix of rows
+    /// (see [`crate::white_balance`]).
+    pub fn mapped(filter: Option<&Spectrum>, matrix: [[f64; 3]; 3]) -> Self {
         let seen = |channel: usize| {
             move |lambda: f64| {
                 let row = row(&RESPONSE, (lambda - LAMBDA_MIN) as f32);
-                f64::from(row[channel]) * filter.eval_at(lambda)
+                let mixed: f64 = (0..3).map(|k| matrix[channel][k] * f64::from(row[k])).sum();
+                mixed * filter.map_or(1.0, |filter| filter.eval_at(lambda))
             }
         };
         Self::new([&seen(0), &seen(1), &seen(2)])
+    }
+
+    /// The standard observer behind a filter of this transmittance.
+    pub fn behind(filter: &Spectrum) -> Self {
+        const AS_THEY_ARE: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        Self::mapped(Some(filter), AS_THEY_ARE)
     }
 
     /// Four wavelengths from one number `u` in [0, 1).

@@ -11,14 +11,15 @@ use glam::Vec2;
 /// The accepted values, for messages.
 const ACCEPTED: &str = "0 or more (a roughness below 0.0001 acts as 0.0001)";
 
-/// A textured roughness: `distribution` (beckmann), `alpha` (0.1) or `alpha_u` and `alpha_v`, and
-/// `sample_visible` (true).
+/// A textured roughness: `distribution` (beckmann), `alpha` (0.1) or `alpha_u` and `alpha_v`,
+/// `sample_visible` (true), and `masking` (separable).
 #[derive(Clone, Debug)]
 pub struct Roughness {
     kind: Kind,
     alpha_u: TextureId,
     alpha_v: TextureId,
     sample_visible: bool,
+    correlated: bool,
 }
 
 impl Roughness {
@@ -26,6 +27,8 @@ impl Roughness {
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let kind = kind(params);
         let sample_visible = params.boolean_or("sample_visible", true);
+        let rules = ["separable", "correlated"];
+        let correlated = params.choice("masking", rules[0], &rules) == rules[1];
         let anisotropic = params.has("alpha_u") || params.has("alpha_v");
         if anisotropic && params.has("alpha") {
             params.error_at("alpha", "give either `alpha` or `alpha_u` and `alpha_v`");
@@ -47,6 +50,7 @@ impl Roughness {
             alpha_u,
             alpha_v,
             sample_visible,
+            correlated,
         })
     }
 
@@ -73,7 +77,9 @@ impl Roughness {
             }
         });
         let alpha = [along_x, along_y];
-        Microfacet::in_lanes(|i| at(i).0.kind, alpha, |i| at(i).0.sample_visible)
+        let distribution =
+            Microfacet::in_lanes(|i| at(i).0.kind, alpha, |i| at(i).0.sample_visible);
+        distribution.with_correlated(|i| at(i).0.correlated)
     }
 }
 

@@ -90,7 +90,7 @@ impl Bxdf for PolarizedPlastic {
             return (Vec4::ZERO, Vec4::ZERO);
         };
         let d = self.microfacet.d(m);
-        let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
+        let shadowing = self.microfacet.g(wo, wi, m);
         let reflected = fresnel::dielectric(cos, self.eta).0 * d * shadowing / (4.0 * wo.z);
         let enters = |cos: f32| 1.0 - fresnel::dielectric(cos.min(1.0), self.eta).0;
         let base = enters(wo.z) * enters(wi.z) * wi.z * FRAC_1_PI;

@@ -26,6 +26,7 @@ pub const EXEMPLARS: &[&str] = &[
     "roughconductor alpha=f:0.2",
     "roughconductor alpha_u=f:0.6 alpha_v=f:0.2 eta=t:400:1.5,700:0.2 k=t:400:1.8,700:3.5",
     "roughconductor alpha_u=f:0.15 alpha_v=f:0.5 distribution=s:ggx",
+    "roughconductor alpha=f:0.5 distribution=s:ggx masking=s:correlated",
     "roughconductor alpha=f:0.4 distribution=s:ggx sample_visible=b:false eta=u:0.2 k=u:3.9",
     "roughconductor alpha=f:0.3 sample_visible=b:false",
 ];
@@ -109,7 +110,7 @@ impl<F: Lane> LaneBxdf<F> for RoughConductor<F> {
             return nothing::<F>();
         }
         let d = self.microfacet.d(m);
-        let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
+        let shadowing = self.microfacet.g(wo, wi, m);
         let value = self.reflectance
             * fresnel::conductor(cos, self.eta, self.k)
             * (d * shadowing / (wo.z() * 4.0));

@@ -31,6 +31,7 @@ use glam::{Vec2, Vec3, Vec4};
 pub const EXEMPLARS: &[&str] = &[
     "roughdielectric alpha=f:0.3",
     "roughdielectric alpha_u=f:0.2 alpha_v=f:0.5 distribution=s:ggx int_ior=f:1.8",
+    "roughdielectric alpha=f:0.4 masking=s:correlated",
     "roughdielectric alpha=f:0.4 sample_visible=b:false specular_reflectance=u:0.8 \
      specular_transmittance=u:0.6",
     "roughdielectric alpha=f:0.3 distribution=s:ggx int_ior=s:cauchy:1.4,0.05",
@@ -147,7 +148,7 @@ impl<F: Lane> RoughDielectric<F> {
     ) -> (F::Spectrum, F::Spectrum) {
         let (has_normal, m, cos) = half_vector::<F>(wo, wi);
         let (d, density) = self.normal_density(wo, m);
-        let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
+        let shadowing = self.microfacet.g(wo, wi, m);
         let fresnel = fresnel::dielectric_spectrum(cos, eta).0;
         let value = self.reflectance * fresnel * (d * shadowing / (wo.z() * 4.0));
         let density = fresnel * (density / (cos * 4.0));
@@ -168,7 +169,7 @@ impl<F: Lane> RoughDielectric<F> {
         }
         let through = F::ONE - fresnel::dielectric(cos_o, eta).0;
         let (d, density) = self.normal_density(wo, m);
-        let shadowing = self.microfacet.g1(wo, m) * self.microfacet.g1(wi, m);
+        let shadowing = self.microfacet.g(wo, wi, m);
         // |∂m/∂wi|, of which wo·m + η wi·m = ±|wo + η wi| (ibid., eq. 17).
         let jacobian = eta * eta * -cos_i / (length * length);
         let scale = match mode {

@@ -1,4 +1,4 @@
-//! The film (`film.cpp`). `rgb` is an `hdrfilm`: both count rows from the top, and show light of luminance 1 as 1 if the exposure is 1.
+//! The film (`film.cpp`). `rgb` is an `hdrfilm`, as `gbuffer` is, and `spectral` a `specfilm`: both count rows from the top, and show light of luminance 1 as 1 if the exposure is 1.
 //!
 //! A window is given in pixels, or in parts of the film, which are rounded up to pixels and then count more. pbrt multiplies the picture by the
 //! exposure time, which is the time that the shutter is open, and by iso / 100; a factor other than 1 becomes a sensor response `srf`
@@ -8,7 +8,8 @@ use super::super::parameter::ColorSpace;
 use super::super::parameters::Parameters;
 use super::Mapper;
 use super::node::Draft;
-use etalon_params::{Class, Diagnostic, Node, Value};
+use etalon_params::{Class, Diagnostic, Node, SpectrumText, Value};
+use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN};
 use std::sync::Arc;
 
 /// What a film is for those who build the sensor.
@@ -26,27 +27,87 @@ impl Mapper<'_> {
     pub(crate) fn film(&self) -> Option<MappedFilm> {
         let params = self.read(&self.scene.film);
         let filter = self.filter();
-        if params.entity.kind != "rgb" {
-            self.refuse(&params, "film", "rgb");
-            return None;
+        let kind = params.entity.kind;
+        if kind == "gbuffer" {
+            params.ignore(&["coordinatesystem"]);
+            let message = "the film `gbuffer` is one of colours: its other channels are those of the integrator `aov`";
+            let help =
+                "`etalon render --features` writes albedos, normals and depths beside the picture";
+            self.note(params.entity.span, message, help);
+        }
+        if kind == "spectral" {
+            return self.spectral_film(&params, filter);
         }
         // The name of the picture and its precision are the command line's; the diagonal matters to `realistic` only.
         params.ignore(&["filename", "savefp16", "diagonal"]);
-        let size = [("xresolution", 1280), ("yresolution", 720)]
-            .map(|(name, default)| params.integer_from(name, default, 1));
-        let [width, height] = size.map(|side| Value::Integer(i64::from(side)));
-        let mut draft = Draft::of(&params, Class::Film, "hdrfilm")
-            .from(&params, "xresolution", "width", width)
-            .from(&params, "yresolution", "height", height);
-        draft = self.window(&params, size, draft);
+        let (size, mut draft) = self.pixels(&params, "hdrfilm");
+        let balance = params.float("whitebalance", 0.0);
+        if balance != 0.0 {
+            draft = draft.from(
+                &params,
+                "whitebalance",
+                "white_balance",
+                Value::Float(balance),
+            );
+        }
         let gain = self.sensor_gain(&params);
         self.note_colours(&params);
         params.finish();
         let node = draft.child(filter?).node();
+        Some(MappedFilm { node, size, gain })
+    }
+
+    /// A film of the plugin `plugin` with its size and window.
+    fn pixels(&self, params: &Parameters<'_>, plugin: &str) -> ([i32; 2], Draft) {
+        let size = [("xresolution", 1280), ("yresolution", 720)]
+            .map(|(name, default)| params.integer_from(name, default, 1));
+        let [width, height] = size.map(|side| Value::Integer(i64::from(side)));
+        let draft = Draft::of(params, Class::Film, plugin)
+            .from(params, "xresolution", "width", width)
+            .from(params, "yresolution", "height", height);
+        (size, self.window(params, size, draft))
+    }
+
+    /// `spectral`: bands of equal width from `lambdamin` to `lambdamax`, each the mean radiance within it.
+    fn spectral_film(
+        &self,
+        params: &Parameters<'_>,
+        filter: Option<Arc<Node>>,
+    ) -> Option<MappedFilm> {
+        params.ignore(&["filename", "savefp16", "diagonal"]);
+        let accepted = "a wavelength in nanometres, 360 to 830";
+        let within = |nm: f64| (LAMBDA_MIN..=LAMBDA_MAX).contains(&nm);
+        let low = params.float_where("lambdamin", LAMBDA_MIN, accepted, within);
+        let high = params.float_where("lambdamax", LAMBDA_MAX, accepted, within);
+        let count = params.integer_from("nbuckets", 16, 1);
+        let (size, mut draft) = self.pixels(params, "specfilm");
+        let gain = self.sensor_gain(params);
+        if high <= low {
+            params.error_at("lambdamax", "`lambdamax` must be above `lambdamin`");
+            return None;
+        }
+        let width = (high - low) / f64::from(count);
+        for band in 0..count {
+            let [from, to] = [band, band + 1].map(|i| low + width * f64::from(i));
+            // Steep ends: they lie within a hundredth of a nanometre.
+            let end = 0.005_f64.min(0.25 * width);
+            let mean = 1.0 / width;
+            let samples = vec![
+                (from - end, 0.0),
+                (from + end, mean),
+                (to - end, mean),
+                (to + end, 0.0),
+            ];
+            let name = format!("S0.{:.3}nm", 0.5 * (from + to))
+                .replace('.', ",")
+                .replacen(',', ".", 1);
+            draft = draft.plain(&name, Value::Spectrum(SpectrumText::Samples(samples)));
+        }
+        params.finish();
         Some(MappedFilm {
-            node,
+            node: draft.child(filter?).node(),
             size,
-            gain: gain?,
+            gain,
         })
     }
 
@@ -89,18 +150,16 @@ impl Mapper<'_> {
     }
 
     /// The factor by which the sensor's sensitivity multiplies the picture.
-    fn sensor_gain(&self, params: &Parameters<'_>) -> Option<f64> {
+    fn sensor_gain(&self, params: &Parameters<'_>) -> f64 {
         let iso = params.float_where("iso", 100.0, "a finite number above 0", |iso| {
             iso > 0.0 && iso.is_finite()
         });
-        let balance = params.float("whitebalance", 0.0);
-        if balance != 0.0 {
-            self.refuse_value(params, "whitebalance", "white balance", "0, which is none");
-        }
         let sensor = params.string("sensor").unwrap_or("cie1931");
         if sensor != "cie1931" {
-            let what = format!("sensor `{sensor}`");
-            self.refuse_value(params, "sensor", &what, "cie1931");
+            let message = format!("the standard observer stands in for the sensor `{sensor}`");
+            let help =
+                "its sensitivity is kept, its colours are not: Etalon has no curves of cameras";
+            self.note(params.span("sensor"), message, help);
         }
         let most = params.float("maxcomponentvalue", f64::INFINITY);
         if most.is_finite() {
@@ -109,7 +168,7 @@ impl Mapper<'_> {
             let span = params.span("maxcomponentvalue");
             self.note(span, message, help);
         }
-        (balance == 0.0 && sensor == "cie1931").then_some(iso / 100.0)
+        iso / 100.0
     }
 
     /// pbrt writes the picture in the colour space at the film's place, which only its parameters know.

@@ -7,7 +7,7 @@
 //! | triangle, max(0, r − |x|) | `tent` |
 //! | gaussian, e^(−x²/2σ²) − e^(−r²/2σ²) | `gaussian`, whose r is 4σ unless `radius` says otherwise |
 //! | mitchell over 2x/r | `mitchell`, with r = 2 |
-//! | sinc, sinc(x) sinc(x/τ) for |x| < r | `lanczos` of τ lobes if r = τ is an integer |
+//! | sinc, sinc(x) sinc(x/τ) for |x| < r | `lanczos` of τ lobes if τ is an integer: it ends at τ |
 
 use super::super::parameters::Parameters;
 use super::Mapper;
@@ -55,11 +55,17 @@ impl Mapper<'_> {
             "sinc" => {
                 let radius = self.radius(params, 4.0)?;
                 let tau = params.float("tau", 3.0);
-                if radius != tau || tau.fract() != 0.0 || !(1.0..1e6).contains(&tau) {
+                if radius < tau || tau.fract() != 0.0 || !(1.0..1e6).contains(&tau) {
                     let what = format!("`sinc` of the radius {radius} with tau = {tau}");
-                    let accepted = "the same integer from 1 on for `xradius`, `yradius` and `tau`";
+                    let accepted = "an integer from 1 on for `tau`, and radii not below it";
                     self.refuse_value(params, "tau", &what, accepted);
                     return None;
+                }
+                if radius > tau {
+                    let message =
+                        format!("the filter `sinc` ends at {tau}, not at {radius} pixels");
+                    let help = "the lobes beyond are the window's own, and small";
+                    self.note(params.entity.span, message, help);
                 }
                 let lobes = Value::Integer(tau as i64);
                 Some(draft("lanczos").from(params, "tau", "lobes", lobes))

@@ -78,7 +78,9 @@ impl Roughness {
     pub(crate) fn model(self, params: &Parameters<'_>, smooth: &str) -> Draft {
         let rough = || {
             let draft = Draft::of(params, Class::Bsdf, &format!("rough{smooth}"));
-            draft.plain("distribution", word("ggx"))
+            draft
+                .plain("distribution", word("ggx"))
+                .plain("masking", word("correlated"))
         };
         match self {
             Self::Smooth => Draft::of(params, Class::Bsdf, smooth),

@@ -46,7 +46,8 @@ fn matte_materials() {
 
 #[test]
 fn metals() {
-    let ggx = r#"<string name="distribution" value="ggx"/>"#;
+    let ggx =
+        r#"<string name="distribution" value="ggx"/><string name="masking" value="correlated"/>"#;
     assert_bsdf(
         r#"Material "conductor""#,
         r#"<bsdf type="twosided"><bsdf type="conductor"><string name="material" value="Cu"/></bsdf></bsdf>"#,
@@ -89,7 +90,7 @@ fn glass() {
     assert_bsdf(
         r#"Material "dielectric" "float roughness" 0.2 "bool remaproughness" false"#,
         &format!(
-            r#"<bsdf type="roughdielectric"><string name="distribution" value="ggx"/><float name="alpha" value="0.2"/>
+            r#"<bsdf type="roughdielectric"><string name="distribution" value="ggx"/><string name="masking" value="correlated"/><float name="alpha" value="0.2"/>
                 <float name="int_ior" value="1.5"/>{air}</bsdf>"#
         ),
     );
@@ -127,7 +128,7 @@ fn coats_stand_in_with_a_note() {
     );
     let expected = xml(&format!(
         r#"<bsdf type="twosided"><bsdf type="coating"><float name="int_ior" value="1.5"/>{air}
-            <bsdf type="roughconductor"><string name="distribution" value="ggx"/><float name="alpha" value="0.2"/>
+            <bsdf type="roughconductor"><string name="distribution" value="ggx"/><string name="masking" value="correlated"/><float name="alpha" value="0.2"/>
                 <string name="material" value="Cu"/><float name="ext_eta" value="1.5"/></bsdf></bsdf></bsdf>"#
     ));
     assert_eq!(found, shown(&children(&expected.root).remove(0)));

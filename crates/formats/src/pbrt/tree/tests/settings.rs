@@ -199,3 +199,39 @@ fn the_command_line_replaces_the_integrator() {
         xml("<integrator type=\"bdpt\"><integer name=\"max_depth\" value=\"6\"/></integrator>");
     assert_alike(&outcome.document.expect("a document"), &expected);
 }
+
+#[test]
+fn films_of_other_kinds() {
+    let film_of = |text: &str| {
+        let root = sound(&format!("{text} WorldBegin")).root;
+        let sensor = children(&root)
+            .into_iter()
+            .find(|n| n.class.name() == "sensor");
+        let parts = children(&sensor.expect("a sensor")).into_iter();
+        parts
+            .into_iter()
+            .find(|n| n.class.name() == "film")
+            .expect("a film")
+    };
+    let balanced = shown(&film_of(r#"Film "rgb" "float whitebalance" 3200"#));
+    assert!(
+        balanced.contains("white_balance: float 3.200000e3"),
+        "{balanced}"
+    );
+    let film = film_of(
+        r#"Film "spectral" "integer nbuckets" 2 "float lambdamin" 400 "float lambdamax" 500"#,
+    );
+    let bands: Vec<&str> = film
+        .properties
+        .iter()
+        .map(|p| p.name.as_str())
+        .filter(|n| n.starts_with("S0"))
+        .collect();
+    assert_eq!(bands, ["S0.425,000nm", "S0.475,000nm"]);
+    let notes = |text: &str| read(&format!("{text} WorldBegin")).lines();
+    assert!(
+        notes(r#"Film "rgb" "string sensor" "nikon_d850""#)
+            .contains("stands in for the sensor `nikon_d850`")
+    );
+    assert!(notes(r#"Film "gbuffer""#).contains("note: the film `gbuffer` is one of colours"));
+}
