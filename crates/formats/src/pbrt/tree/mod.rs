@@ -28,6 +28,7 @@ mod media;
 mod meshes;
 mod metals;
 mod node;
+mod noise_textures;
 mod options;
 mod picture;
 mod placement;

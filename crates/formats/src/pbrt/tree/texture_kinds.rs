@@ -7,10 +7,11 @@
 //! | mix: (1 − amount) tex1 + amount tex2 | `mix` |
 //! | bilerp over the unit square | `mix` of `mix`es by formulas of s and t |
 //! | imagemap | `bitmap` |
+//! | fbm, wrinkled, windy | `expression` (`noise_textures`) |
 //! | checkerboard: tex1 where ⌊s⌋ + ⌊t⌋ is even | `checkerboard`, whose squares have the side ½ |
 //!
 //! Etalon's `checkerboard` exchanges its colours where it is a number (its own documentation says why), so they are given the other way
-//! round there. pbrt filters the pattern over the pixel; the mean over its samples is the same. The noises of the rest are pbrt's own.
+//! round there. pbrt filters the pattern over the pixel; the mean over its samples is the same. `marble` and `dots` have pbrt's own patterns.
 
 use super::super::parameters::Parameters;
 use super::super::scene::{TextureId, TextureKind};
@@ -21,7 +22,7 @@ use super::textures::{Rows, times};
 use etalon_params::{Class, Span, Value};
 
 /// What may stand in place of a texture that has no equal.
-const ACCEPTED: &str = "constant, scale, mix, bilerp, imagemap, checkerboard";
+const ACCEPTED: &str = "constant, scale, mix, bilerp, imagemap, checkerboard, fbm, wrinkled, windy";
 
 impl<'a> Mapper<'a> {
     /// The value of a texture; `None` after a mistake.
@@ -37,6 +38,10 @@ impl<'a> Mapper<'a> {
             "bilerp" => self.bilerp(&params, kind),
             "imagemap" => self.image(&params, kind),
             "checkerboard" => self.checkerboard(&params, kind),
+            "fbm" | "wrinkled" | "windy" => {
+                let to_world = self.still(&texture.placement, "textures", params.entity.span);
+                self.noise_texture(&params, to_world)
+            }
             _ => {
                 self.refuse(&params, "texture", ACCEPTED);
                 return None;
