@@ -159,7 +159,7 @@ impl<'a> BsdfAtPoint<'a> {
             u_lobe -= lobe.probability;
         }
         let (index, u_inner) = chosen?;
-        let mut sample = lobes[index].sample(self.normal, wo, u_inner, u, mode)?;
+        let mut sample = lobes[index].sample_by_density(self.normal, wo, u_inner, u, mode)?;
         if let SamplePdf::Continuous(density) = sample.chance {
             let mut lanes = density.lanes();
             for (_, other) in lobes.iter().enumerate().filter(|(i, _)| *i != index) {

@@ -16,6 +16,26 @@ pub trait Bxdf: Copy {
     /// Samples a direction, as [`etalon_transport::Bsdf::sample`] but in the local frame.
     fn sample(&self, wo: Vec3, u_lobe: f32, u: Vec2, mode: TransportMode) -> Option<BsdfSample>;
 
+    /// The same, where continuous directions must follow their density and have their value: in mixtures, and where the normal is
+    /// tilted. The discrete ones are those of [`Bxdf::sample`]. A model that does not sample by a walk keeps this.
+    #[inline]
+    fn sample_by_density(
+        &self,
+        wo: Vec3,
+        u_lobe: f32,
+        u: Vec2,
+        mode: TransportMode,
+    ) -> Option<BsdfSample> {
+        self.sample(wo, u_lobe, u, mode)
+    }
+
+    /// Whether [`Bxdf::sample`] finds continuous directions by a random walk: then only the mean of its value over its density is
+    /// that of [`Bxdf::eval_and_density`], whose values are estimates, too. Most models have an equation, and keep this.
+    #[inline]
+    fn samples_by_walk(&self) -> bool {
+        false
+    }
+
     /// The sample of a continuous direction that was found; `None` where its density is 0 in the lane that chose.
     #[inline]
     fn continuous(&self, wo: Vec3, wi: Vec3, eta: f32, mode: TransportMode) -> Option<BsdfSample> {

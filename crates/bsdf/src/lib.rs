@@ -19,6 +19,7 @@ mod inputs;
 pub mod interface;
 mod lane_bsdf_at_point;
 mod lane_model;
+pub mod layers;
 pub mod lobe;
 pub mod lobe_list;
 mod material_flags;

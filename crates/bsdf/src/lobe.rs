@@ -61,7 +61,7 @@ impl Lobe<'_> {
         mode: TransportMode,
     ) -> Option<BsdfSample> {
         if let Some(tilt) = &self.tilt {
-            let sample = |wo| self.scatter.sample(wo, u_lobe, u, mode);
+            let sample = |wo| self.scatter.sample_by_density(wo, u_lobe, u, mode);
             return self.sample_tilted(tilt, normal, wo, (mode, u.x), sample);
         }
         let mut sample = (self.scatter).sample(self.frame.to_local(wo), u_lobe, u, mode);
@@ -69,6 +69,25 @@ impl Lobe<'_> {
             self.in_world(normal, wo, mode, sample);
         }
         sample
+    }
+
+    /// The same where the direction must follow the density (see [`Bxdf::sample_by_density`]).
+    #[inline]
+    pub(crate) fn sample_by_density(
+        &self,
+        normal: Vec3,
+        wo: Vec3,
+        u_lobe: f32,
+        u: Vec2,
+        mode: TransportMode,
+    ) -> Option<BsdfSample> {
+        if !self.scatter.samples_by_walk() || self.tilt.is_some() {
+            return self.sample(normal, wo, u_lobe, u, mode);
+        }
+        let local = self.frame.to_local(wo);
+        let mut sample = self.scatter.sample_by_density(local, u_lobe, u, mode)?;
+        self.in_world(normal, wo, mode, &mut sample);
+        Some(sample)
     }
 
     /// The discrete direction number `index` of this lobe, weighted.

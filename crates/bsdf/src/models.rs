@@ -7,6 +7,8 @@ pub mod blendbsdf;
 pub mod bumpmap;
 pub mod classicphong;
 pub mod coat;
+pub mod coatedconductor;
+pub mod coateddiffuse;
 pub mod coating;
 pub mod conductor;
 pub mod dielectric;
@@ -39,9 +41,7 @@ use crate::{BsdfAtPoint, Bxdf, Lobe, LobeList, MAX_LOBES, MaterialFlags, Shading
 use etalon_math::Frame;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, plugins};
 use etalon_spectrum::Wavelengths;
-use etalon_transport::{
-    BsdfSample, Build, LegacyPhong, SurfaceInteraction, Textures, TransportMode,
-};
+use etalon_transport::{BsdfSample, Build, SurfaceInteraction, Textures, TransportMode};
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
 
@@ -78,7 +78,7 @@ macro_rules! models {
         }
 
         /// The materials that the tests of all models run on, in a one-line notation:
-        /// `plugin key=kind:value … ( nested ) …`, with the kinds `f` number, `s` string, `b`
+        /// `plugin key=kind:value … ( nested ) …`, with the kinds `f` number, `i` integer, `s` string, `b`
         /// boolean, `u` uniform and `t` tabulated spectrum.
         pub fn test_materials() -> impl Iterator<Item = &'static str> {
             [$($plain_module::EXEMPLARS,)* $($composed_module::EXEMPLARS,)*]
@@ -172,6 +172,26 @@ macro_rules! models {
                 match self {
                     $(Self::$plain(model) => model.sample(wo, u_lobe, u, mode),)*
                     $(Self::$lobe(model) => model.sample(wo, u_lobe, u, mode),)*
+                }
+            }
+
+            fn sample_by_density(
+                &self,
+                wo: Vec3,
+                u_lobe: f32,
+                u: Vec2,
+                mode: TransportMode,
+            ) -> Option<BsdfSample> {
+                match self {
+                    $(Self::$plain(model) => model.sample_by_density(wo, u_lobe, u, mode),)*
+                    $(Self::$lobe(model) => model.sample_by_density(wo, u_lobe, u, mode),)*
+                }
+            }
+
+            fn samples_by_walk(&self) -> bool {
+                match self {
+                    $(Self::$plain(model) => model.samples_by_walk(),)*
+                    $(Self::$lobe(model) => model.samples_by_walk(),)*
                 }
             }
 
@@ -316,46 +336,6 @@ impl Material {
             .collect()
     }
 
-    /// Whether it is, or holds, a classic Phong material, which is no scattering model.
-    pub fn is_classic(&self) -> bool {
-        match self {
-            Self::LegacyPhong(_) => true,
-            Self::Mask(mask) => mask.nested().is_classic(),
-            Self::TwoSided(sides) => sides.nested().any(Self::is_classic),
-            Self::NormalMap(map) => map.tilted().nested().is_classic(),
-            Self::BumpMap(map) => map.tilted().nested().is_classic(),
-            _ => false,
-        }
-    }
-
-    /// The classic Phong material at a point for the known direction `wo`, if it is one and no scattering model.
-    pub fn legacy_phong<T: Textures>(
-        &self,
-        textures: &T,
-        vertex: &SurfaceInteraction,
-        wo: Vec3,
-        wavelengths: &Wavelengths,
-    ) -> Option<LegacyPhong> {
-        let site = ShadingContext::new(textures, vertex, wo, wavelengths);
-        self.classic(&site, vertex.shading)
-    }
-
-    /// The same within another material, which may have made the normal that of `frame`.
-    pub(crate) fn classic<T: Textures>(
-        &self,
-        site: &ShadingContext<'_, T>,
-        frame: Frame,
-    ) -> Option<LegacyPhong> {
-        match self {
-            Self::LegacyPhong(phong) => Some(phong.resolve(site, frame)),
-            Self::Mask(mask) => mask.classic(site, frame),
-            Self::TwoSided(sides) => sides.classic(site, frame),
-            Self::NormalMap(map) => map.classic(site, frame),
-            Self::BumpMap(map) => map.classic(site, frame),
-            _ => None,
-        }
-    }
-
     /// Whether light may go straight on, so that shadow rays need a transmittance.
     pub fn has_null(&self) -> bool {
         self.traits().null
@@ -395,6 +375,8 @@ models! {
         "measured" Measured measured (MaterialFlags::reflecting) <'a>,
         "hair" Hair hair (hair::Description::flags),
         "difftrans" DiffuseTransmission difftrans (difftrans::Description::flags),
+        "coateddiffuse" CoatedDiffuse coateddiffuse (MaterialFlags::reflecting),
+        "coatedconductor" CoatedConductor coatedconductor (MaterialFlags::reflecting),
     }
     composed {
         "thindielectric" ThinDielectric thindielectric,

@@ -6,6 +6,7 @@
 
 pub mod discrete;
 pub mod hash;
+pub mod henyey_greenstein;
 pub mod independent;
 pub mod kind;
 pub mod replicate_kind;

@@ -1,16 +1,12 @@
-//! The Henyey–Greenstein phase function (Henyey & Greenstein 1941, eq. 2).
+//! The phase function of Henyey & Greenstein: [`etalon_sampling::henyey_greenstein`].
 //!
-//! ```text
-//! p(μ) = (1 − g²) / (4π · (1 + g² − 2gμ)^{3/2})
-//! ```
-//!
-//! with μ the cosine between the direction of travel and the scattered one, and g ∈ (−1, 1) its
-//! mean. Numerics: near g = 0 the inverse distribution function loses digits and the isotropic
-//! one is used (|g| < 10⁻³, an error of the order of g).
+//! Near g = 0 the isotropic one is used (|g| < 10⁻³, an error of the order of g).
 
 use crate::rotational::Rotational;
 use etalon_params::Params;
-use std::f32::consts::PI;
+use etalon_sampling::henyey_greenstein::{
+    henyey_greenstein_density, interval_to_henyey_greenstein,
+};
 
 /// Henyey–Greenstein scattering.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,18 +38,11 @@ impl HenyeyGreenstein {
 
 impl Rotational for HenyeyGreenstein {
     fn value(&self, mu: f32) -> f32 {
-        let g = self.g;
-        let d = 1.0 + g * g - 2.0 * g * mu;
-        (1.0 - g * g) / (4.0 * PI * d * d.sqrt())
+        henyey_greenstein_density(self.g, mu)
     }
 
     fn inverse(&self, u: f32) -> f32 {
-        let g = self.g;
-        if g == 0.0 {
-            return 2.0 * u - 1.0;
-        }
-        let q = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);
-        (1.0 + g * g - q * q) / (2.0 * g)
+        interval_to_henyey_greenstein(self.g, u)
     }
 }
 

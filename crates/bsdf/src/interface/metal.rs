@@ -24,7 +24,16 @@ impl Metal {
     /// both are divided.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let exterior = number_from_params(params, "ext_eta", "vacuum");
-        let inverse_exterior = (1.0 / exterior?) as f32;
+        Self::within(params, build, exterior?)
+    }
+
+    /// The same without `ext_eta`, where what is outside is known.
+    pub(crate) fn within(
+        params: &Params<'_>,
+        build: &mut dyn Build,
+        exterior: f64,
+    ) -> Option<Self> {
+        let inverse_exterior = (1.0 / exterior) as f32;
         params.note_default("material", "a string", "none");
         let name = params.string("material").unwrap_or("none");
         if name == "none" {

@@ -11,13 +11,72 @@ use glam::Vec2;
 /// The accepted values, for messages.
 const ACCEPTED: &str = "0 or more (a roughness below 0.0001 acts as 0.0001)";
 
+/// α with textures.
+#[derive(Clone, Debug)]
+pub(crate) struct Alphas {
+    u: TextureId,
+    v: TextureId,
+}
+
+impl Alphas {
+    /// Reads `alpha`, or `alpha_u` and `alpha_v`, each with `prefix` before its name.
+    pub(crate) fn from_params(
+        params: &Params<'_>,
+        build: &mut dyn Build,
+        prefix: &str,
+        default: f64,
+    ) -> Option<Self> {
+        let names = ["alpha", "alpha_u", "alpha_v"].map(|name| format!("{prefix}{name}"));
+        let [both, u, v] = &names.each_ref().map(String::as_str);
+        let anisotropic = params.has(u) || params.has(v);
+        if anisotropic && params.has(both) {
+            params.error_at(both, format!("give either `{both}` or `{u}` and `{v}`"));
+            params.ignore(&[both, u, v]);
+            return None;
+        }
+        if anisotropic {
+            // A missing one of the two is reported by `texture`.
+            return Some(Self {
+                u: non_negative(params, build, (u, None), ACCEPTED)?,
+                v: non_negative(params, build, (v, None), ACCEPTED)?,
+            });
+        }
+        let alpha = non_negative(params, build, (both, Some(default)), ACCEPTED)?;
+        Some(Self { u: alpha, v: alpha })
+    }
+
+    /// α along x and y at a point.
+    #[inline]
+    pub(crate) fn at<T: Textures>(&self, site: &TextureSite<'_, T>) -> Vec2 {
+        Self::in_lanes::<f32, T>(|_| (self, site)).into()
+    }
+
+    /// The same at several points.
+    #[inline]
+    fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
+        at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
+    ) -> [F; 2] {
+        let along_x = F::from_fn(|i| {
+            let (alphas, site) = at(i);
+            site.number(alphas.u)
+        });
+        let along_y = F::from_fn(|i| {
+            let (alphas, site) = at(i);
+            match alphas.v == alphas.u {
+                true => along_x.lane(i),
+                false => site.number(alphas.v),
+            }
+        });
+        [along_x, along_y]
+    }
+}
+
 /// A textured roughness: `distribution` (beckmann), `alpha` (0.1) or `alpha_u` and `alpha_v`,
 /// `sample_visible` (true), and `masking` (separable).
 #[derive(Clone, Debug)]
 pub struct Roughness {
     kind: Kind,
-    alpha_u: TextureId,
-    alpha_v: TextureId,
+    alphas: Alphas,
     sample_visible: bool,
     correlated: bool,
 }
@@ -29,26 +88,9 @@ impl Roughness {
         let sample_visible = params.boolean_or("sample_visible", true);
         let rules = ["separable", "correlated"];
         let correlated = params.choice("masking", rules[0], &rules) == rules[1];
-        let anisotropic = params.has("alpha_u") || params.has("alpha_v");
-        if anisotropic && params.has("alpha") {
-            params.error_at("alpha", "give either `alpha` or `alpha_u` and `alpha_v`");
-            params.ignore(&["alpha", "alpha_u", "alpha_v"]);
-            return None;
-        }
-        let (alpha_u, alpha_v) = if anisotropic {
-            // A missing one of the two is reported by `texture`.
-            (
-                non_negative(params, build, ("alpha_u", None), ACCEPTED)?,
-                non_negative(params, build, ("alpha_v", None), ACCEPTED)?,
-            )
-        } else {
-            let alpha = non_negative(params, build, ("alpha", Some(0.1)), ACCEPTED)?;
-            (alpha, alpha)
-        };
         Some(Self {
             kind,
-            alpha_u,
-            alpha_v,
+            alphas: Alphas::from_params(params, build, "", 0.1)?,
             sample_visible,
             correlated,
         })
@@ -65,18 +107,10 @@ impl Roughness {
     pub(crate) fn in_lanes<'m, 's, F: Lane, T: Textures + 's>(
         at: impl Fn(usize) -> (&'m Self, &'s TextureSite<'s, T>),
     ) -> Microfacet<F> {
-        let along_x = F::from_fn(|i| {
+        let alpha = Alphas::in_lanes(|i| {
             let (roughness, site) = at(i);
-            site.number(roughness.alpha_u)
+            (&roughness.alphas, site)
         });
-        let along_y = F::from_fn(|i| {
-            let (roughness, site) = at(i);
-            match roughness.alpha_v == roughness.alpha_u {
-                true => along_x.lane(i),
-                false => site.number(roughness.alpha_v),
-            }
-        });
-        let alpha = [along_x, along_y];
         let distribution =
             Microfacet::in_lanes(|i| at(i).0.kind, alpha, |i| at(i).0.sample_visible);
         distribution.with_correlated(|i| at(i).0.correlated)

@@ -13,10 +13,12 @@
 
 use crate::inputs::non_negative;
 use crate::interface::relative_index::RelativeIndex;
-use crate::{LobeList, MaterialFlags, ShadingContext};
+use crate::{LobeList, Material, MaterialFlags, ShadingContext};
 use etalon_math::Frame;
 use etalon_params::Params;
-use etalon_transport::{Build, LegacyPhong, SpectrumKind, TextureId, Textures};
+use etalon_spectrum::Wavelengths;
+use etalon_transport::{Build, LegacyPhong, SpectrumKind, SurfaceInteraction, TextureId, Textures};
+use glam::Vec3;
 
 /// Nothing for the harness of scattering models.
 pub const EXEMPLARS: &[&str] = &[];
@@ -91,5 +93,47 @@ impl Description {
         _: f32,
         _: &mut LobeList<'_>,
     ) {
+    }
+}
+
+impl Material {
+    /// Whether it is, or holds, a classic Phong material, which is no scattering model.
+    pub fn is_classic(&self) -> bool {
+        match self {
+            Self::LegacyPhong(_) => true,
+            Self::Mask(mask) => mask.nested().is_classic(),
+            Self::TwoSided(sides) => sides.nested().any(Self::is_classic),
+            Self::NormalMap(map) => map.tilted().nested().is_classic(),
+            Self::BumpMap(map) => map.tilted().nested().is_classic(),
+            _ => false,
+        }
+    }
+
+    /// The classic Phong material at a point for the known direction `wo`, if it is one and no scattering model.
+    pub fn legacy_phong<T: Textures>(
+        &self,
+        textures: &T,
+        vertex: &SurfaceInteraction,
+        wo: Vec3,
+        wavelengths: &Wavelengths,
+    ) -> Option<LegacyPhong> {
+        let site = ShadingContext::new(textures, vertex, wo, wavelengths);
+        self.classic(&site, vertex.shading)
+    }
+
+    /// The same within another material, which may have made the normal that of `frame`.
+    pub(crate) fn classic<T: Textures>(
+        &self,
+        site: &ShadingContext<'_, T>,
+        frame: Frame,
+    ) -> Option<LegacyPhong> {
+        match self {
+            Self::LegacyPhong(phong) => Some(phong.resolve(site, frame)),
+            Self::Mask(mask) => mask.classic(site, frame),
+            Self::TwoSided(sides) => sides.classic(site, frame),
+            Self::NormalMap(map) => map.classic(site, frame),
+            Self::BumpMap(map) => map.classic(site, frame),
+            _ => None,
+        }
     }
 }

@@ -113,7 +113,7 @@ pub(crate) fn worst(bsdf: &impl Bsdf, wo: Vec3, seed: u64) -> (f32, usize) {
 #[test]
 fn density_is_one_over_the_jacobian() {
     let mut failures = Vec::new();
-    for sample in Sample::test_materials() {
+    for sample in Sample::with_equations() {
         for wo in directions::known() {
             let bsdf = sample.at(wo);
             if branches(&bsdf, wo, Vec2::splat(0.4)).len() > COORDINATE {

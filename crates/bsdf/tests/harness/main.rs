@@ -23,3 +23,5 @@ mod scene;
 mod sphere;
 mod statistical;
 mod tables;
+mod walk_limits;
+mod walks;

@@ -1,6 +1,6 @@
 //! A one-line notation for materials.
 //!
-//! `plugin key=kind:value … ( nested ) …` with the kinds `f` (number), `s` (string, `_` for a
+//! `plugin key=kind:value … ( nested ) …` with the kinds `f` (number), `i` (integer), `s` (string, `_` for a
 //! space), `b` (boolean), `u` (uniform spectrum) and `t` (tabulated spectrum, `nm:value,…`)
 //! and `n` (the same as a nested object), `c` (a colour, `r,g,b`).
 
@@ -57,6 +57,7 @@ fn value(kind: &str, text: &str) -> Value {
     let number = |text: &str| text.parse::<f64>().expect("a number");
     match kind {
         "f" => Value::Float(number(text)),
+        "i" => Value::Integer(number(text) as i64),
         "s" => Value::String(text.replace('_', " ")),
         "b" => Value::Boolean(text == "true"),
         "c" => {

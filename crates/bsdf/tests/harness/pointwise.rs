@@ -54,7 +54,7 @@ pub(crate) fn inconsistency(bsdf: &impl Bsdf, wo: Vec3, seed: u64) -> Option<Str
 
 #[test]
 fn samples_have_the_value_and_density_of_their_direction() {
-    for sample in Sample::test_materials() {
+    for sample in Sample::with_equations() {
         let mut uniform = Uniform::new(3);
         for seed in 0..40 {
             let wo = uniform.direction();

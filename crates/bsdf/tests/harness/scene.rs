@@ -1,7 +1,7 @@
 //! The least scene that a material can be built and resolved in.
 
 use crate::{notation, tables};
-use etalon_bsdf::{BsdfAtPoint, Material};
+use etalon_bsdf::{BsdfAtPoint, Bxdf, Material};
 use etalon_math::Frame;
 use etalon_math::lane::{Lane, Spectral};
 use etalon_params::{Diagnostic, Diagnostics, Node, Params, Severity, SpectrumText, Value};
@@ -198,6 +198,22 @@ impl Sample {
     /// All exemplars of all models.
     pub(crate) fn test_materials() -> Vec<Self> {
         etalon_bsdf::test_materials().map(Self::new).collect()
+    }
+
+    /// The same of the models that have an equation. The rest sample by a walk, and their values are right in the mean only: see
+    /// `walks.rs`.
+    pub(crate) fn with_equations() -> Vec<Self> {
+        let mut all = Self::test_materials();
+        all.retain(|sample| !sample.samples_by_walk());
+        all
+    }
+
+    /// Whether samples are found by a walk: not in mixtures.
+    pub(crate) fn samples_by_walk(&self) -> bool {
+        match self.at(Vec3::Z).lobes() {
+            [only] => only.tilt.is_none() && only.scatter.samples_by_walk(),
+            _ => false,
+        }
     }
 
     /// The material at a point whose shading and geometric normals are +z.

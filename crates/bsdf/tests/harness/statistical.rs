@@ -148,7 +148,7 @@ pub(crate) fn unturn(lanes: Vec4, turn: usize) -> Vec4 {
 #[test]
 fn sampling_follows_density_and_finds_the_energy() {
     let mut family = Family::new(1e-3).expect("a level");
-    for (i, sample) in Sample::test_materials().iter().enumerate() {
+    for (i, sample) in Sample::with_equations().iter().enumerate() {
         for (j, wo) in directions::known().into_iter().enumerate() {
             let seed = (10 * i + j) as u64;
             let name = |what: &str| format!("{what} of {} from {wo}", sample.text);

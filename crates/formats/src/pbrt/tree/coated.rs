@@ -1,47 +1,46 @@
 //! Layered materials (`materials.cpp`, `CoatedDiffuseMaterial` and `CoatedConductorMaterial`; `bxdfs.h`, `LayeredBxDF`).
 //!
-//! pbrt walks about between the layers by chance, with what is between them absorbing and scattering; Etalon has models in closed
-//! form. They stand in with a note, as the pictures differ: `plastic` takes all interreflection below the coat into account
-//! (`nonlinear`), `coating` none. pbrt divides the metal's index by that of the coat, as `ext_eta` does.
+//! Etalon has both by the same random walk. pbrt divides the metal's index by that of the coat, and Etalon does.
 
 use super::super::parameters::Parameters;
 use super::Mapper;
-use super::dielectrics::{between_vacuum, of_alpha};
+use super::dielectrics::between_vacuum;
+use super::node::Draft;
 use super::spectrum::Role;
-use etalon_params::{Node, Value};
+use etalon_params::{Class, Node, Value};
 use std::sync::Arc;
-
-/// How pbrt walks, which a closed form has no use for, and what is between the layers.
-const WALK: [&str; 5] = ["maxdepth", "nsamples", "thickness", "g", "albedo"];
 
 impl<'a> Mapper<'a> {
     /// A matte base under a coat; `None` after a mistake.
     pub(crate) fn coated_diffuse(&mut self, params: &Parameters<'a>) -> Option<Arc<Node>> {
         let reflectance = self.colour(params, "reflectance", 0.5, Role::Reflectance);
-        let alpha = self.single_alpha(params, "");
-        let index = self.single_index(params, "eta", 1.5);
-        params.ignore(&WALK);
-        let draft = of_alpha(params, "plastic", alpha?);
-        let draft = between_vacuum(draft.given("diffuse_reflectance", reflectance?), index?);
-        self.note_stand_in(params, draft.plugin());
-        Some(draft.plain("nonlinear", Value::Boolean(true)).node())
+        let coat = self.coat(params, "");
+        Some(coat?.given("reflectance", reflectance?).node())
     }
 
     /// A metal under a coat; `None` after a mistake.
     pub(crate) fn coated_conductor(&mut self, params: &Parameters<'a>) -> Option<Arc<Node>> {
-        let metal = self.conductor(params, "conductor.");
-        let alpha = self.single_alpha(params, "interface.");
-        let index = self.single_index(params, "interface.eta", 1.5);
-        params.ignore(&WALK);
-        let draft = between_vacuum(of_alpha(params, "coating", alpha?), index?);
-        self.note_stand_in(params, draft.plugin());
-        Some(draft.child(metal?).node())
+        let roughness = self.roughness(params, "conductor.");
+        let coat = self.coat(params, "interface.");
+        let metal = self.metal_under(params, "conductor.", coat?);
+        Some(roughness?.on(metal?, "base_").node())
     }
 
-    fn note_stand_in(&self, params: &Parameters<'_>, plugin: &str) {
-        let kind = params.entity.kind;
-        let message = format!("`{plugin}` stands in for pbrt's `{kind}`");
-        let help = "it is near, not the same: nothing is absorbed or scattered between the layers";
-        self.note(params.entity.span, message, help);
+    /// The coat, whose own parameters begin with `prefix`, over a base of which nothing is known yet.
+    fn coat(&mut self, params: &Parameters<'a>, prefix: &str) -> Option<Draft> {
+        let roughness = self.roughness(params, prefix);
+        let index = self.single_index(params, &format!("{prefix}eta"), 1.5);
+        let thickness = self.number(params, "thickness", 0.01);
+        let albedo = self.colour(params, "albedo", 0.0, Role::Reflectance);
+        let g = Value::Float(params.float("g", 0.0));
+        let count = |name: &str, default| Value::Integer(i64::from(params.integer(name, default)));
+        let draft = Draft::of(params, Class::Bsdf, params.entity.kind);
+        let draft = between_vacuum(roughness?.on(draft, ""), index?)
+            .given("thickness", thickness?)
+            .given("albedo", albedo?)
+            .from(params, "g", "g", g)
+            .from(params, "maxdepth", "max_depth", count("maxdepth", 10))
+            .from(params, "nsamples", "samples", count("nsamples", 1));
+        Some(draft)
     }
 }

@@ -10,7 +10,7 @@ use super::Mapper;
 use super::node::{Draft, Given, given, word};
 use super::roughness::Roughness;
 use super::spectrum::Role;
-use etalon_params::{Class, Node, Value};
+use etalon_params::{Node, Value};
 use std::sync::Arc;
 
 /// pbrt's names, each with B₁, B₂, B₃ and C₁, C₂, C₃. Its F5, F10 and F11 are SF5, SF10 and SF11.
@@ -155,14 +155,6 @@ impl<'a> Mapper<'a> {
 pub(crate) fn between_vacuum(draft: Draft, index: Given) -> Draft {
     let draft = draft.given("int_ior", index);
     draft.plain("ext_ior", Value::Float(1.0))
-}
-
-/// A smooth or rough node of a coat, which has one α.
-pub(crate) fn of_alpha(params: &Parameters<'_>, smooth: &str, alpha: Option<Given>) -> Draft {
-    match alpha {
-        Some(alpha) => Roughness::Even(alpha).model(params, smooth),
-        None => Draft::of(params, Class::Bsdf, smooth),
-    }
 }
 
 #[cfg(test)]

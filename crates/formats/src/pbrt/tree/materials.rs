@@ -52,7 +52,7 @@ impl<'a> Mapper<'a> {
         let found = match params.entity.kind {
             "diffuse" => self.diffuse(params).map(both_sides),
             "diffusetransmission" => self.diffuse_transmission(params),
-            "conductor" => self.conductor(params, "").map(both_sides),
+            "conductor" => self.conductor(params).map(both_sides),
             "dielectric" => self.dielectric(params),
             "thindielectric" => self.thin_dielectric(params),
             "coateddiffuse" => self.coated_diffuse(params).map(both_sides),

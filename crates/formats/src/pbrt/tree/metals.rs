@@ -6,7 +6,7 @@
 use super::super::parameters::Parameters;
 use super::super::spectrum_value::{SpectrumOrTexture, SpectrumValue};
 use super::Mapper;
-use super::node::{Given, given, word};
+use super::node::{Draft, Given, given, word};
 use super::spectrum::{Role, computed, samples_of};
 use etalon_params::{Node, Span, SpectrumText, Value};
 use etalon_spectrum::conductors;
@@ -16,28 +16,26 @@ use std::sync::Arc;
 const MOST_REFLECTANCE: f64 = 0.9999;
 
 impl<'a> Mapper<'a> {
-    /// A metal whose parameters begin with `prefix`, rough or not; `None` after a mistake.
-    pub(crate) fn conductor(&mut self, params: &Parameters<'a>, prefix: &str) -> Option<Arc<Node>> {
-        let roughness = self.roughness(params, prefix);
-        let index = self.metal_index(params, prefix);
-        let draft = roughness?.model(params, "conductor");
-        let draft = match index? {
+    /// A metal, rough or not; `None` after a mistake.
+    pub(crate) fn conductor(&mut self, params: &Parameters<'a>) -> Option<Arc<Node>> {
+        let draft = self.roughness(params, "")?.model(params, "conductor");
+        Some(self.metal_under(params, "", draft)?.node())
+    }
+
+    /// The node with the index of the metal whose parameters begin with `prefix`; `None` after a mistake.
+    pub(crate) fn metal_under(
+        &mut self,
+        params: &Parameters<'a>,
+        prefix: &str,
+        draft: Draft,
+    ) -> Option<Draft> {
+        Some(match self.metal_index(params, prefix)? {
             Metal::Named(name, span) => draft.given("material", given(word(name), span)),
             Metal::Index(index) => {
                 let [eta, k] = *index;
                 draft.given("eta", eta).given("k", k)
             }
-        };
-        // A coat is outside of a metal in it.
-        if prefix.is_empty() {
-            return Some(draft.node());
-        }
-        let outside = params.float("interface.eta", 1.5);
-        Some(
-            draft
-                .from(params, "interface.eta", "ext_eta", Value::Float(outside))
-                .node(),
-        )
+        })
     }
 
     fn metal_index(&mut self, params: &Parameters<'a>, prefix: &str) -> Option<Metal<'a>> {

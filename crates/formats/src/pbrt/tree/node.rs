@@ -52,11 +52,6 @@ impl Draft {
         self.plugin.span
     }
 
-    /// The plugin's name.
-    pub(crate) fn plugin(&self) -> &str {
-        &self.plugin.value
-    }
-
     /// Adds a property that came from `span`.
     pub(crate) fn with(mut self, name: &str, value: Value, span: Span) -> Self {
         let property = Property::new(name, span, value, span);

@@ -76,16 +76,21 @@ impl<'a> Mapper<'a> {
 impl Roughness {
     /// A node of the plugin `smooth`, or of that with "rough" before its name, with its roughness.
     pub(crate) fn model(self, params: &Parameters<'_>, smooth: &str) -> Draft {
-        let rough = || {
-            let draft = Draft::of(params, Class::Bsdf, &format!("rough{smooth}"));
-            draft
-                .plain("distribution", word("ggx"))
-                .plain("masking", word("correlated"))
-        };
+        if matches!(self, Self::Smooth) {
+            return Draft::of(params, Class::Bsdf, smooth);
+        }
+        let rough = Draft::of(params, Class::Bsdf, &format!("rough{smooth}"));
+        let rough = rough.plain("distribution", word("ggx"));
+        self.on(rough.plain("masking", word("correlated")), "")
+    }
+
+    /// A node with this roughness, in parameters whose names begin with `prefix`; a smooth one is its default.
+    pub(crate) fn on(self, draft: Draft, prefix: &str) -> Draft {
+        let along = |axis: &str| format!("{prefix}alpha{axis}");
         match self {
-            Self::Smooth => Draft::of(params, Class::Bsdf, smooth),
-            Self::Even(alpha) => rough().given("alpha", alpha),
-            Self::Uneven([u, v]) => rough().given("alpha_u", u).given("alpha_v", v),
+            Self::Smooth => draft,
+            Self::Even(alpha) => draft.given(&along(""), alpha),
+            Self::Uneven([u, v]) => draft.given(&along("_u"), u).given(&along("_v"), v),
         }
     }
 }
