@@ -16,7 +16,6 @@
 //! Skřivan, Křivánek 2019, "MIS Compensation"), which leaves dark regions to scattering. All
 //! others, such as `direct` with `bsdf_samples` zero, and particles have the whole brightness.
 
-use crate::latitude_longitude as map;
 use crate::light_model::LightModel;
 use crate::pose::Pose;
 use crate::sky_image::SkyImage;
@@ -26,6 +25,7 @@ use etalon_math::lane::{Lane, Mask, Select, Vector};
 use etalon_math::{Density, SolidAngle, float64};
 use etalon_params::{Diagnostic, Params};
 use etalon_sampling::discrete::Bilinear;
+use etalon_sampling::latitude_longitude as map;
 use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
     Build, Emission, EmissionPdf, LaneLightSample, LaneReceiver, LightSample, LightSampleContext,

@@ -8,6 +8,8 @@ pub mod discrete;
 pub mod hash;
 pub mod independent;
 pub mod kind;
+pub mod latitude_longitude;
+pub mod octahedral;
 pub mod replicate_kind;
 pub mod sampler;
 pub mod sobol;
