@@ -104,6 +104,10 @@ impl Camera for Orthographic {
         })
     }
 
+    fn can_connect(&self) -> bool {
+        true
+    }
+
     fn has_lens(&self) -> bool {
         false
     }

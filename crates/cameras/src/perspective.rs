@@ -103,6 +103,10 @@ impl Camera for Perspective {
         })
     }
 
+    fn can_connect(&self) -> bool {
+        true
+    }
+
     fn has_lens(&self) -> bool {
         false
     }

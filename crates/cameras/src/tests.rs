@@ -1,16 +1,39 @@
 //! What the tests of cameras share: sensor nodes, films, placements.
 
-use crate::{AnyCamera, FilmWindow};
+use crate::{FilmWindow, MeasuredSurface, SensorShapes};
 use etalon_params::{Class, DMat4, DVec3};
 use etalon_params::{Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value};
-use glam::UVec2;
+use etalon_transport::{SurfacePoint, TexturePoint};
+use glam::{UVec2, Vec2, Vec3};
+use std::sync::Arc;
 
+mod batches;
 mod connections;
 mod lanes;
 mod lenses;
+mod meters;
 mod mistakes;
 mod mitsuba;
+mod panoramas;
 mod receptions;
+
+/// Any camera; it measures on squares.
+type AnyCamera = crate::AnyCamera<Square>;
+
+/// The square from (0, 0, 1) to (2, 2, 1), which looks to +z.
+#[derive(Clone, Debug, PartialEq)]
+struct Square;
+
+impl MeasuredSurface for Square {
+    fn point(&self, u: Vec2) -> SurfacePoint {
+        SurfacePoint {
+            position: (u * 2.0).extend(1.0),
+            error: Vec3::ZERO,
+            normal: Vec3::Z,
+            texture: TexturePoint::at_uv(u),
+        }
+    }
+}
 
 const NOWHERE: Span = Span {
     file: FileId(0),
@@ -39,9 +62,22 @@ fn read(
     properties: &[(&str, Value)],
     window: FilmWindow,
 ) -> (Option<AnyCamera>, Vec<String>) {
+    read_node(&node(plugin, properties), window, None)
+}
+
+/// The same of a node, perhaps the child of a shape.
+fn read_node(
+    node: &Node,
+    window: FilmWindow,
+    carrier: Option<Square>,
+) -> (Option<AnyCamera>, Vec<String>) {
     let diagnostics = Diagnostics::new();
-    let node = node(plugin, properties);
-    let camera = AnyCamera::from_params(&Params::new(&node, &diagnostics), window);
+    let mut read = |_: &Arc<Node>| Some(Square);
+    let mut shapes = SensorShapes {
+        carrier,
+        read: &mut read,
+    };
+    let camera = AnyCamera::from_params(&Params::new(node, &diagnostics), window, &mut shapes);
     let messages = diagnostics.into_sorted().into_iter().map(|d| d.message);
     (camera.map(|(camera, _)| camera), messages.collect())
 }

@@ -174,6 +174,10 @@ impl Camera for ThinLens {
         self.aperture_radius > 0.0
     }
 
+    fn can_connect(&self) -> bool {
+        true
+    }
+
     fn has_lens(&self) -> bool {
         self.aperture_radius > 0.0
     }

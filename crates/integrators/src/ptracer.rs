@@ -197,6 +197,7 @@ impl Integrator for ParticleTracer {
 
     fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
         let mut incompatibilities = capabilities.incompatibilities(LightSearch::Choosing);
+        incompatibilities.extend(capabilities.one_way_camera());
         incompatibilities.extend(capabilities.unsplattable());
         incompatibilities.extend(capabilities.unconnected());
         incompatibilities

@@ -20,7 +20,6 @@ pub mod directional_area;
 pub mod environment;
 pub mod extent;
 pub mod few;
-pub mod latitude_longitude;
 pub mod light;
 mod light_model;
 pub mod light_sampler;

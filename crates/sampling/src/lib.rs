@@ -9,6 +9,7 @@ pub mod hash;
 pub mod henyey_greenstein;
 pub mod independent;
 pub mod kind;
+pub mod latitude_longitude;
 pub mod replicate_kind;
 pub mod sampler;
 pub mod sobol;

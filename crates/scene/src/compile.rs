@@ -1,6 +1,7 @@
 //! From a description to a scene.
 
 use crate::builder::Builder;
+use crate::described_sensor::{DescribedSensor, read_film, read_filter};
 use crate::media::bodies::{Bodies, Extent};
 use crate::media::short_flights;
 use crate::media::subsurface;
@@ -8,17 +9,14 @@ use crate::media::{self, LightMedium, SceneMedia};
 use crate::sampler::SamplerSettings;
 use crate::scene::Scene;
 use crate::scene_tables::SceneTables;
-use crate::sensor::{Response, curve};
 use crate::sensor_choice::{self, SensorChoice};
 use crate::surfaces::{self, Emitting, Names, Surfaces};
-use etalon_cameras::{AnyCamera, FilmWindow};
-use etalon_film::{FilmSettings, Filter, Framing};
+use etalon_film::{FilmSettings, Framing};
 use etalon_geometry::AcceleratorKind;
 use etalon_lights::{BoundingSphere, LightDescription, LightSamplerKind, LightSet};
-use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, plugins};
-use etalon_spectrum::Sensor;
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span};
 use etalon_subsurface::PhaseFunction;
-use etalon_transport::{Assets, Build, LightId, MediumId, ShapeId, Shapes, Shutter, SpectrumKind};
+use etalon_transport::{Assets, Build, LightId, MediumId, ShapeId, Shapes, SpectrumKind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -73,8 +71,10 @@ pub fn compile_with(
 ) -> Option<Compiled> {
     let params = Params::new(root, diagnostics);
     let mut builder = Builder::new(assets, diagnostics);
-    let sensor_node = sensor_choice::chosen(&params, options.sensor.as_ref());
-    let sensor = sensor_node.and_then(|node| sensor(node, &options.framing, &mut builder));
+    let placed_sensor = sensor_choice::chosen(&params, options.sensor.as_ref());
+    let sensor_node = placed_sensor.map(|placed| placed.node);
+    let sensor = placed_sensor
+        .and_then(|placed| DescribedSensor::read(placed, &options.framing, &mut builder));
     if let Some(sensor) = &sensor {
         builder.shutter = sensor.shutter;
     }
@@ -97,7 +97,7 @@ pub fn compile_with(
         return None;
     }
     let DescribedSensor {
-        camera,
+        mut camera,
         film,
         sampler,
         responses,
@@ -154,6 +154,7 @@ pub fn compile_with(
     );
     media.find_dark(&surfaces.interfaces, &surfaces.materials, &lights, &lookup);
     let [low, high] = media.extent([bounds.min, bounds.max]);
+    camera.surround([low, high]);
     let bounds = BoundingSphere::of_box(low, high);
     let kind = (options.light_chooser)
         .or_else(|| LightSamplerKind::named(named))
@@ -239,107 +240,6 @@ fn medium_of(
 ) -> Option<MediumId> {
     let medium = params.child(Class::Medium)?;
     Some(surfaces.medium(medium, builder))
-}
-
-/// A sensor with its film, filter and sampler.
-struct DescribedSensor {
-    camera: AnyCamera,
-    film: FilmSettings,
-    sampler: SamplerSettings,
-    shutter: Shutter,
-    /// Response curves of the film's channels, three each.
-    responses: Vec<Sensor>,
-}
-
-/// A sensor: camera, film and sampler.
-fn sensor(node: &Node, framing: &Framing, builder: &mut Builder<'_>) -> Option<DescribedSensor> {
-    let diagnostics = builder.diagnostics;
-    let sensor = Params::new(node, diagnostics);
-    let film = film(&sensor, builder).and_then(|(mut film, response)| {
-        let framed = framing.apply(&mut film).map_err(Diagnostic::error_nowhere);
-        diagnostics.keep(framed).map(|()| (film, response))
-    });
-    let filter = sensor.has("srf").then(|| curve(&sensor, "srf", builder));
-    let sampler = SamplerSettings::from_sensor(&sensor);
-    // After a mistake in the film, any film will do to find those of the camera.
-    let stand_in = || {
-        let film = FilmSettings::new(768, 576, Filter::default());
-        (film, Response::default())
-    };
-    let (film, response) = film.unwrap_or_else(stand_in);
-    let window = FilmWindow {
-        size: film.size,
-        origin: film.crop_offset,
-        crop: film.crop_size,
-    };
-    let (camera, shutter) = AnyCamera::from_params(&sensor, window)?;
-    let filter = match filter {
-        Some(filter) => Some(filter?),
-        None => None,
-    };
-    Some(DescribedSensor {
-        camera,
-        film,
-        sampler,
-        shutter,
-        responses: response.sensors(filter.as_ref()),
-    })
-}
-
-/// The film of a sensor, by default Mitsuba's `hdrfilm`.
-fn film(sensor: &Params<'_>, builder: &mut Builder<'_>) -> Option<(FilmSettings, Response)> {
-    let (mut film, response) = match sensor.child(Class::Film) {
-        Some(node) => read_film(node, builder)?,
-        None => {
-            let film = FilmSettings::new(768, 576, Filter::default());
-            (film, Response::default())
-        }
-    };
-    if let Some(node) = sensor.child(Class::ReconstructionFilter) {
-        let has_own = |film: &Arc<Node>| {
-            let film = Params::new(film, builder.diagnostics);
-            !film.children(Class::ReconstructionFilter).is_empty()
-        };
-        if sensor.child(Class::Film).is_some_and(has_own) {
-            let message = "the film has a filter of its own";
-            (builder.diagnostics).push(Diagnostic::error(node.plugin.span, message));
-            return None;
-        }
-        let message = "an `rfilter` stands in the film: this one is taken as the film's";
-        (builder.diagnostics).push(Diagnostic::note(node.plugin.span, message));
-        film.filter = read_filter(node, builder.diagnostics);
-    }
-    Some((film, response))
-}
-
-fn read_filter(node: &Node, diagnostics: &Diagnostics) -> Filter {
-    let params = Params::new(node, diagnostics);
-    let filter = Filter::from_params(&params);
-    params.finish();
-    filter
-}
-
-/// An `hdrfilm` or `specfilm`, or one of Mitsuba 0.6's other films, which is read as an `hdrfilm`.
-fn read_film(node: &Node, builder: &mut Builder<'_>) -> Option<(FilmSettings, Response)> {
-    let diagnostics = builder.diagnostics;
-    let name = node.plugin.value.as_str();
-    if FilmSettings::OTHER_PLUGINS.contains(&name) {
-        diagnostics.push(
-            Diagnostic::note(
-                node.plugin.span,
-                format!("the film `{name}` is read as an `hdrfilm`: the picture stays linear"),
-            )
-            .help("`etalon convert` makes a picture for the screen of it"),
-        );
-    } else if !FilmSettings::PLUGINS.contains(&name) {
-        diagnostics.push(plugins::not_built(node, FilmSettings::PLUGINS));
-        return None;
-    }
-    let params = Params::new(node, diagnostics);
-    let mut film = FilmSettings::from_params(&params);
-    let response = Response::read(&params, &mut film, builder);
-    params.finish();
-    Some((film, response?))
 }
 
 /// Reads films, filters and samplers at the top of a scene, which others may refer to, so that mistakes in

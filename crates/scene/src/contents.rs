@@ -68,6 +68,7 @@ impl Scene {
         SceneCapabilities {
             view,
             lights,
+            unconnected_camera: !self.parts.camera.can_connect(),
             aperture: self.parts.camera.can_receive(),
             sky: self.lights().has_background(),
             swallowed: self.parts.lights.has_infinite() && self.is_swallowed(),

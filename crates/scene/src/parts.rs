@@ -5,6 +5,7 @@ mod lights;
 mod media;
 mod surfaces;
 
+use crate::measured_shape::MeasuredShape;
 use crate::media::medium_lights::MediumLights;
 use crate::scene::Scene;
 use crate::space::Space;
@@ -17,7 +18,7 @@ use std::sync::Arc;
 
 /// The parts that scenes with different sensors share.
 pub struct Parts {
-    pub(crate) camera: AnyCamera,
+    pub(crate) camera: AnyCamera<MeasuredShape>,
     /// Whether vertices are shaded in vector lanes: where no medium shines or has a diffusion profile.
     pub(crate) in_lanes: bool,
     pub(crate) space: Space,

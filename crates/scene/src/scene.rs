@@ -1,5 +1,6 @@
 //! The compiled scene: everything an integrator may ask, answered.
 
+use crate::measured_shape::MeasuredShape;
 use crate::media::SceneMedia;
 use crate::media::medium_lights::{LightChoice, MediumLights};
 use crate::parts::Parts;
@@ -29,7 +30,7 @@ pub struct Scene {
 impl Scene {
     /// Puts a scene together, with the standard sensor.
     pub fn new(
-        camera: AnyCamera,
+        camera: AnyCamera<MeasuredShape>,
         lookup: SceneTables,
         materials: Vec<Material>,
         lights: LightSet,
@@ -75,7 +76,7 @@ impl World for Scene {
     type Surfaces = Parts;
     type Lights = Parts;
     type Media = Parts;
-    type Camera = AnyCamera;
+    type Camera = AnyCamera<MeasuredShape>;
     type Sensor = Sensor;
     type Lanes = Parts;
 
@@ -100,7 +101,7 @@ impl World for Scene {
     }
 
     #[inline]
-    fn camera(&self) -> &AnyCamera {
+    fn camera(&self) -> &AnyCamera<MeasuredShape> {
         &self.parts.camera
     }
 

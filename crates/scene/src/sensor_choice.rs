@@ -1,6 +1,6 @@
-//! Which of a scene's sensors is rendered.
+//! Which of a scene's sensors is rendered: those of the scene and those of its shapes, in the order of the file.
 
-use etalon_params::{Class, Diagnostic, Node, Params};
+use etalon_params::{Class, Diagnostic, Node, Params, Property, Value};
 use std::sync::Arc;
 
 /// A sensor by its place in the file or by its `id`.
@@ -21,32 +21,81 @@ impl SensorChoice {
     }
 }
 
+/// A sensor of a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct PlacedSensor<'a> {
+    /// Where it stands.
+    pub property: &'a Property,
+    /// Its description.
+    pub node: &'a Arc<Node>,
+    /// The shape that it is a child of, if it measures on one.
+    pub carrier: Option<&'a Arc<Node>>,
+}
+
+/// A scene's sensors, in the order of the file.
+pub fn sensors(scene: &Node) -> Vec<PlacedSensor<'_>> {
+    let mut sensors = Vec::new();
+    for property in &scene.properties {
+        let Value::Object(node) = &property.value else {
+            continue;
+        };
+        match node.class {
+            Class::Sensor => sensors.push(PlacedSensor {
+                property,
+                node,
+                carrier: None,
+            }),
+            Class::Shape => {
+                let inside = node
+                    .properties
+                    .iter()
+                    .filter_map(|property| match &property.value {
+                        Value::Object(sensor) if sensor.class == Class::Sensor => {
+                            Some(PlacedSensor {
+                                property,
+                                node: sensor,
+                                carrier: Some(node),
+                            })
+                        }
+                        _ => None,
+                    });
+                sensors.extend(inside);
+            }
+            _ => {}
+        }
+    }
+    sensors
+}
+
 /// The sensor that is rendered: the chosen one, or the first. `None` after a mistake, which has been recorded.
 pub(crate) fn chosen<'a>(
     params: &Params<'a>,
     choice: Option<&SensorChoice>,
-) -> Option<&'a Arc<Node>> {
-    let sensors = params.children(Class::Sensor);
+) -> Option<PlacedSensor<'a>> {
+    let sensors = sensors(params.node);
+    sensors
+        .iter()
+        .for_each(|sensor| sensor.property.mark_used());
     let Some(choice) = choice else {
-        let Some((_, first)) = sensors.first() else {
+        let Some(first) = sensors.first() else {
             params.diagnostics.push(
                 Diagnostic::error(params.node.span, "the scene has no sensor")
                     .help("add a <sensor type=\"perspective\">"),
             );
             return None;
         };
-        for (property, _) in &sensors[1..] {
+        for other in &sensors[1..] {
             let message = "only the scene's first sensor is rendered";
-            let note = Diagnostic::note(property.name_span, message).label("not rendered");
+            let note = Diagnostic::note(other.property.name_span, message).label("not rendered");
             params
                 .diagnostics
                 .push(note.help("`--sensor` chooses another"));
         }
-        return Some(first);
+        return Some(*first);
     };
     let found = (0..)
         .zip(&sensors)
-        .find(|(index, (_, node))| choice.is(*index, node));
+        .find(|(index, sensor)| choice.is(*index, sensor.node));
     if found.is_none() {
         let message = match choice {
             SensorChoice::Number(number) => format!("the scene has no sensor number {number}"),
@@ -54,10 +103,12 @@ pub(crate) fn chosen<'a>(
         };
         let names = (0..)
             .zip(&sensors)
-            .map(|(index, (_, node)): (usize, _)| match &node.id {
-                Some(id) => format!("{index} (`{id}`)"),
-                None => index.to_string(),
-            });
+            .map(
+                |(index, sensor): (usize, &PlacedSensor<'_>)| match &sensor.node.id {
+                    Some(id) => format!("{index} (`{id}`)"),
+                    None => index.to_string(),
+                },
+            );
         let names: Vec<String> = names.collect();
         let help = match names.is_empty() {
             true => "it has none at all".to_owned(),
@@ -65,5 +116,5 @@ pub(crate) fn chosen<'a>(
         };
         (params.diagnostics).push(Diagnostic::error_nowhere(message).help(help));
     }
-    found.map(|(_, (_, node))| *node)
+    found.map(|(_, sensor)| *sensor)
 }

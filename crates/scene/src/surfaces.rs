@@ -14,7 +14,7 @@ use etalon_bsdf::Material;
 use etalon_geometry::shapes::csg::Operation;
 use etalon_geometry::{GeometryBuilder, GroupId, Shape};
 use etalon_math::Motion;
-use etalon_params::{Class, Diagnostic, Node, Params, Span};
+use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span, Value};
 use etalon_subsurface::MediumDescription;
 use etalon_textures::{Constant, Texture};
 use etalon_transport::{LightId, MaterialId, MediumId, MediumInterface, ShapeId};
@@ -100,6 +100,17 @@ pub fn read(scene: &Params<'_>, builder: &mut Builder<'_>) -> Surfaces {
         surfaces.add(node, builder);
     }
     surfaces
+}
+
+/// Refuses sensors on a shape that is not one of the scene itself: those have been seen.
+fn refuse_sensors(node: &Node, diagnostics: &Diagnostics) {
+    for property in node.properties.iter().filter(|p| !p.is_used()) {
+        if matches!(&property.value, Value::Object(child) if child.class == Class::Sensor) {
+            property.mark_used();
+            let message = "a sensor stands on a shape of the scene, not on a part of another";
+            diagnostics.push(Diagnostic::error(property.span, message));
+        }
+    }
 }
 
 /// What a shape carries besides its form.
@@ -214,12 +225,7 @@ impl Surfaces {
         if let Some(bsdf) = bsdf.filter(|_| self.is_classic(material)) {
             self.classic.get_or_insert(bsdf.plugin.span);
         }
-        for (property, _) in params.children(Class::Sensor) {
-            let message = "a sensor on a shape is not built yet";
-            builder
-                .diagnostics
-                .push(Diagnostic::error(property.span, message));
-        }
+        refuse_sensors(node, builder.diagnostics);
         let inside = below.as_ref().map(|(_, medium)| *medium);
         let media = self.media(&params, inside, builder);
         let body = Body::from_params(&params, material, media);

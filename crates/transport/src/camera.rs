@@ -103,6 +103,9 @@ pub trait Camera: Sync {
     /// film).
     fn connect(&self, point: Vec3, lens: Vec2, time: f32, margin: f32) -> Option<CameraSample>;
 
+    /// Whether [`Camera::connect`] connects every point that it sees; otherwise none at all.
+    fn can_connect(&self) -> bool;
+
     /// Where a ray that travels through space happens to hit the aperture; `None` if it misses it,
     /// starts where the camera does not see, or arrives more than `margin` pixels outside of the
     /// film. An aperture without extent, or one through which each point of

@@ -46,6 +46,8 @@ pub struct SceneCapabilities {
     pub lights: LightCount,
     /// Whether the camera has an aperture that a ray can hit, see [`crate::Camera::intersect_aperture`].
     pub aperture: bool,
+    /// Whether the camera cannot be connected with from a point of the scene, see [`crate::Camera::can_connect`].
+    pub unconnected_camera: bool,
     /// Whether there is light at infinity that a ray can hit.
     pub sky: bool,
     /// Whether an unbounded medium absorbs all light from infinity.
@@ -240,6 +242,16 @@ impl SceneCapabilities {
             Incompatibility::remark(Subject::Integrator, message)
         };
         Some(incompatibility.help(help))
+    }
+
+    /// The incompatibility, if any, of an estimator that finds light only by connecting points of the scene with the camera, to one that measures along given rays.
+    pub fn one_way_camera(&self) -> Option<Incompatibility> {
+        self.unconnected_camera.then(|| {
+            let message = "this integrator only connects points of the scene with the camera, and this sensor cannot be connected with: it \
+                           measures along rays of its own";
+            Incompatibility::fatal(Subject::Camera, message)
+                .help("use an integrator that follows light from the camera, too (`path`, `bdpt`)")
+        })
     }
 
     /// The incompatibility, if any, of an estimator that makes the picture, or all that is lit in it, of light that

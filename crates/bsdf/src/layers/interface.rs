@@ -92,10 +92,10 @@ impl Interface {
     }
 }
 
-/// Facets with the roughness `alpha`, sampled as they are seen.
+/// Facets with the roughness `alpha`, sampled as they are seen, masked as in pbrt-v4: by their height.
 #[inline]
 pub(crate) fn ggx(alpha: Vec2) -> Microfacet {
-    Microfacet::new(Kind::Ggx, alpha, true)
+    Microfacet::new(Kind::Ggx, alpha, true).with_correlated(|_| true)
 }
 
 impl Facet {
@@ -113,10 +113,14 @@ impl Facet {
         (self.reflectance < 1.0 && wi.z < 0.0).then(|| self.leaving(wi))
     }
 
-    /// Shadowing is all that visible normals leave of the weight (Heitz & d'Eon 2014, eq. 19).
+    /// What is shadowed of the visible is all that visible normals leave of the weight (Heitz & d'Eon 2014, eq. 19).
     #[inline]
     fn leaving(&self, wi: Vec3) -> (Vec3, f32) {
-        let shown = (self.microfacet).map_or(1.0, |facets| facets.g1(wi, self.normal));
+        let shown = self.microfacet.map_or(1.0, |facets| {
+            let visible = facets.g1(self.up, self.normal);
+            let both = facets.g(self.up, wi, self.normal);
+            if visible > 0.0 { both / visible } else { 0.0 }
+        });
         (Vec3::new(wi.x, wi.y, wi.z * self.side), shown)
     }
 }

@@ -1,5 +1,6 @@
 //! A connection finds the raster position of a ray, and its weight is the Jacobian.
 
+use super::panoramas::panoramas;
 use super::*;
 use etalon_transport::Camera;
 use glam::{Vec2, Vec3};
@@ -41,7 +42,7 @@ proptest! {
         t in 0.5f32..15.0,
     ) {
         let lens = Vec2::new(u, v);
-        for (camera, window) in cameras() {
+        for (camera, window) in cameras().into_iter().chain(panoramas()) {
             let raster = window.origin.as_vec2() + Vec2::new(x, y) * window.crop.as_vec2();
             let ray = camera.ray(raster, lens, 0.0).ray;
             let found = camera.connect(ray.at(t), lens, 0.0, 1e-3).expect("the camera sees its own ray");

@@ -1,6 +1,7 @@
 //! Camera rays in vector lanes: lane i has the bits of the ray alone.
 
 use super::connections::cameras;
+use super::panoramas::panoramas;
 use super::*;
 use crate::{ClipRange, ImagePlane, Perspective};
 use etalon_math::lane::{F32x8, F32x16, Lane};
@@ -40,7 +41,7 @@ fn compare<F: Lane>(camera: &AnyCamera, random: &mut Independent) {
 fn rays_in_lanes_are_those_of_each_sample() {
     let mut random = Independent::from_key(1);
     let moving = moving();
-    let all = cameras();
+    let all: Vec<_> = cameras().into_iter().chain(panoramas()).collect();
     for camera in all.iter().map(|(camera, _)| camera).chain([&moving]) {
         for _ in 0..64 {
             compare::<F32x8>(camera, &mut random);

@@ -57,8 +57,28 @@ fn mistakes_are_refused() {
             vec![number("fow", 1.0)],
             "no parameter `fow`",
         ),
-        ("distant", vec![], "not built yet"),
-        ("fisheye", vec![], "unknown sensor plugin"),
+        ("distant", vec![], "its film has 40 × 30 pixels"),
+        ("flat_sensor", vec![], "not built yet"),
+        ("fish", vec![], "unknown sensor plugin"),
+        ("fisheye", vec![number("fov", 361.0)], "cannot be 361"),
+        (
+            "fisheye",
+            vec![number("fov", 181.0), word("mapping", "orthographic")],
+            "cannot be 181",
+        ),
+        (
+            "spherical",
+            vec![word("mapping", "mercator")],
+            "not a value of `mapping`",
+        ),
+        ("spherical", vec![placed(scaled)], "scale or shear"),
+        ("irradiancemeter", vec![], "must be the child of a shape"),
+        (
+            "irradiancemeter",
+            vec![placed(look_at())],
+            "is where its shape is",
+        ),
+        ("batch", vec![], "needs sensors inside"),
     ] {
         let (_, messages) = read(plugin, &properties, FILM);
         assert!(

@@ -82,6 +82,8 @@ fn only_an_aperture_with_extent_can_receive() {
         camera("thinlens", &[number("aperture_radius", 0.0)], FILM),
         camera("perspective", &[], FILM),
         camera("orthographic", &[], FILM),
+        camera("spherical", &[], FILM),
+        camera("fisheye", &[], FILM),
     ];
     for camera in pinholes {
         assert!(!camera.can_receive());

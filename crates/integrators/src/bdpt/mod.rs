@@ -210,6 +210,7 @@ impl Integrator for Bidirectional {
             _ => LightSearch::Choosing,
         });
         if only.camera == 1 {
+            incompatibilities.extend(capabilities.one_way_camera());
             incompatibilities.extend(capabilities.unconnected());
             incompatibilities.extend(capabilities.unsplattable());
         }

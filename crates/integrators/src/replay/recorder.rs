@@ -99,6 +99,10 @@ impl<C: Camera> Camera for Recording<'_, C> {
         Some(reception)
     }
 
+    fn can_connect(&self) -> bool {
+        self.part.can_connect()
+    }
+
     fn can_receive(&self) -> bool {
         self.part.can_receive()
     }

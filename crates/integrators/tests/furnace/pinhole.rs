@@ -65,6 +65,10 @@ impl Camera for Pinhole {
         })
     }
 
+    fn can_connect(&self) -> bool {
+        true
+    }
+
     fn can_receive(&self) -> bool {
         true
     }

@@ -26,6 +26,9 @@ impl Camera for Camera1D {
     fn connect(&self, _: Vec3, _: Vec2, _: f32, _: f32) -> Option<CameraSample> {
         None
     }
+    fn can_connect(&self) -> bool {
+        false
+    }
     fn has_lens(&self) -> bool {
         false
     }

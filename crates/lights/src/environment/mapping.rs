@@ -3,10 +3,10 @@
 //! A map has nodes at the corners of (columns − 1) × (rows − 1) patches, which cover the unit square of *places*. Between the nodes radiance and
 //! density are bilinear. The nodes are the texels and copies of those beyond the image's borders.
 
-use crate::latitude_longitude;
 use core::f32::consts::PI;
 use etalon_math::lane::{Lane, Select, Vector};
 use etalon_math::{equal_area, float64};
+use etalon_sampling::latitude_longitude;
 use glam::UVec2;
 
 /// The kind of a map, and its size.

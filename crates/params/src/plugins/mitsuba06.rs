@@ -64,7 +64,6 @@ pub(super) const PLUGINS: &[(Class, &str, &str)] = &[
     (Class::Sampler, "sobol", ""),
     (Class::Sensor, "fluencemeter", ""),
     (Class::Sensor, "perspective_rdist", "`perspective`"),
-    (Class::Sensor, "spherical", ""),
     (Class::Sensor, "telecentric", "`orthographic`"),
     (
         Class::Shape,

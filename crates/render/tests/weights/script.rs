@@ -51,6 +51,9 @@ impl<W: World> Camera for Aperture<'_, W> {
     fn connect(&self, point: Vec3, _: Vec2, time: f32, margin: f32) -> Option<CameraSample> {
         self.camera.connect(point, self.course.lens, time, margin)
     }
+    fn can_connect(&self) -> bool {
+        self.camera.can_connect()
+    }
     fn has_lens(&self) -> bool {
         self.camera.has_lens()
     }

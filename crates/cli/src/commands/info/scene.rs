@@ -2,7 +2,7 @@
 
 use crate::commands::{BAD_INPUT, answer};
 use crate::diagnose;
-use etalon_params::{Class, Node, Value};
+use etalon_params::Node;
 use etalon_render::memory::film_bytes;
 use etalon_render::pipeline::{self, LoadOptions, Loaded};
 use etalon_scene::Contents;
@@ -31,13 +31,14 @@ pub(super) fn run(path: &Path, json: bool) -> ExitCode {
 /// The scene's sensors in the order in which `--sensor` counts them, and whether each is the one that is rendered.
 fn sensors(loaded: &Loaded) -> Vec<(&Node, bool)> {
     let rendered = &loaded.compiled.sensor;
-    let children = loaded.described.root.properties.iter();
-    let sensors = children.filter_map(|property| match &property.value {
-        Value::Object(node) if node.class == Class::Sensor => Some(node),
-        _ => None,
-    });
-    sensors
-        .map(|node| (&**node, std::sync::Arc::ptr_eq(node, rendered)))
+    let placed = etalon_scene::sensors(&loaded.described.root).into_iter();
+    placed
+        .map(|sensor| {
+            (
+                &**sensor.node,
+                std::sync::Arc::ptr_eq(sensor.node, rendered),
+            )
+        })
         .collect()
 }
 

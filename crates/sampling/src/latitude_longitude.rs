@@ -5,7 +5,7 @@
 //! dω = 2π² sin θ du dv
 //! ```
 //!
-//! The image's centre (u = ½) is seen along +Z, its upper border is +Y; u grows to the left of a
+//! The image's centre (u = ½) is seen along +Z, its upper border is +Y; u grows to the right of a
 //! viewer who looks along +Z.
 
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
