@@ -126,11 +126,11 @@ fn layers_that_do_nothing_leave_what_is_below_or_above() {
         ),
         (
             "coatedconductor int_ior=f:1.2 ext_ior=f:1.2 thickness=f:0 base_alpha_u=f:0.2 base_alpha_v=f:0.4 eta=u:0.2 k=u:3.9",
-            "roughconductor alpha_u=f:0.2 alpha_v=f:0.4 distribution=s:ggx eta=u:0.2 k=u:3.9 ext_eta=f:1.2",
+            "roughconductor masking=s:correlated alpha_u=f:0.2 alpha_v=f:0.4 distribution=s:ggx eta=u:0.2 k=u:3.9 ext_eta=f:1.2",
         ),
         (
             "coateddiffuse int_ior=f:1.5 ext_ior=f:1 alpha=f:0.3 thickness=f:200",
-            "roughdielectric int_ior=f:1.5 ext_ior=f:1 alpha=f:0.3 distribution=s:ggx",
+            "roughdielectric masking=s:correlated int_ior=f:1.5 ext_ior=f:1 alpha=f:0.3 distribution=s:ggx",
         ),
     ]
     .map(|(layered, plain)| [layered, plain].map(Sample::new));

@@ -95,7 +95,7 @@ const CASES: [Case; 6] = [
     Case {
         model: "coateddiffuse int_ior=f:1.5 ext_ior=f:1 alpha=f:0.3 reflectance=t:400:0.3,700:0.9 thickness=f:0.4 \
                 albedo=f:0.8 g=f:0.5",
-        interface: "roughdielectric int_ior=f:1.5 ext_ior=f:1 alpha=f:0.3 distribution=s:ggx",
+        interface: "roughdielectric masking=s:correlated int_ior=f:1.5 ext_ior=f:1 alpha=f:0.3 distribution=s:ggx",
         base: "diffuse reflectance=t:400:0.3,700:0.9",
         thickness: 0.4,
         albedo: 0.8,
@@ -105,8 +105,8 @@ const CASES: [Case; 6] = [
     Case {
         model: "coatedconductor int_ior=f:1.5 ext_ior=f:1 alpha_u=f:0.2 alpha_v=f:0.4 base_alpha=f:0.3 \
                 eta=t:400:1.5,700:0.2 k=t:400:1.8,700:3.5 thickness=f:0 samples=i:3",
-        interface: "roughdielectric int_ior=f:1.5 ext_ior=f:1 alpha_u=f:0.2 alpha_v=f:0.4 distribution=s:ggx",
-        base: "roughconductor alpha=f:0.3 distribution=s:ggx eta=t:400:1.5,700:0.2 k=t:400:1.8,700:3.5 ext_eta=f:1.5",
+        interface: "roughdielectric masking=s:correlated int_ior=f:1.5 ext_ior=f:1 alpha_u=f:0.2 alpha_v=f:0.4 distribution=s:ggx",
+        base: "roughconductor masking=s:correlated alpha=f:0.3 distribution=s:ggx eta=t:400:1.5,700:0.2 k=t:400:1.8,700:3.5 ext_eta=f:1.5",
         thickness: 0.0,
         albedo: 0.0,
         g: 0.0,
@@ -114,7 +114,7 @@ const CASES: [Case; 6] = [
     },
     Case {
         model: "coatedconductor int_ior=f:1.7 ext_ior=f:1 alpha=f:0.25 eta=u:0.2 k=u:3.9 thickness=f:0.2",
-        interface: "roughdielectric int_ior=f:1.7 ext_ior=f:1 alpha=f:0.25 distribution=s:ggx",
+        interface: "roughdielectric masking=s:correlated int_ior=f:1.7 ext_ior=f:1 alpha=f:0.25 distribution=s:ggx",
         base: "conductor eta=u:0.2 k=u:3.9 ext_eta=f:1.7",
         thickness: 0.2,
         albedo: 0.0,
@@ -134,7 +134,7 @@ const CASES: [Case; 6] = [
     Case {
         model: "coatedconductor int_ior=f:1 ext_ior=f:1.4 base_alpha=f:0.2 eta=u:0.2 k=u:3.9 thickness=f:0.3 albedo=f:0.7",
         interface: "dielectric int_ior=f:1 ext_ior=f:1.4",
-        base: "roughconductor alpha=f:0.2 distribution=s:ggx eta=u:0.2 k=u:3.9",
+        base: "roughconductor masking=s:correlated alpha=f:0.2 distribution=s:ggx eta=u:0.2 k=u:3.9",
         thickness: 0.3,
         albedo: 0.7,
         g: 0.0,

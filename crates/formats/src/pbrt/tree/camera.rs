@@ -21,6 +21,7 @@ use super::node::{Draft, given, word};
 use super::placement::placed;
 use etalon_math::float64;
 use etalon_params::{Class, DMat4, DVec3, Diagnostics, Node, Span, SpectrumText, Value};
+use glam::DVec4;
 use std::sync::Arc;
 
 /// The distances between which things are seen.
@@ -51,16 +52,19 @@ impl Mapper<'_> {
         let kind = params.entity.kind;
         let film = self.film();
         let sampler = self.sampler(self.samples_of_integrator());
-        if !["perspective", "orthographic"].contains(&kind) {
-            self.refuse(&params, "camera", "perspective, orthographic");
+        if kind == "realistic" {
+            self.refuse(&params, "camera", "perspective, orthographic, spherical");
             return None;
         }
         let [open, close] = self.shutter_of(&params);
         let film = film?;
-        let window = self.screen(&params, &film);
         let draft = match kind {
-            "perspective" => self.perspective(&params, window?),
-            _ => self.orthographic(&params, window?),
+            "spherical" => self.spherical(&params),
+            _ => match (self.screen(&params, &film), kind) {
+                (Some(window), "perspective") => self.perspective(&params, window),
+                (Some(window), _) => self.orthographic(&params, window),
+                (None, _) => None,
+            },
         };
         params.finish();
         let medium = scene.camera.medium.map(|medium| self.medium(medium));
@@ -224,6 +228,27 @@ impl Mapper<'_> {
             DMat4::from_translation(centre) * DMat4::from_scale(DVec3::new(half, half, 1.0));
         let draft = Draft::of(params, Class::Sensor, "orthographic");
         self.posed(draft, window)
+    }
+
+    /// pbrt looks along (cos 2πu sin πv, cos πv, sin 2πu sin πv) at (u, v) of the film, Etalon along (sin 2πu sin πv, cos πv, −cos 2πu sin πv) of a
+    /// space whose x runs to the left; the other mapping is the same in both.
+    fn spherical(&self, params: &Parameters<'_>) -> Option<Draft> {
+        // What pbrt has for all cameras with a screen.
+        params.ignore(&[
+            "lensradius",
+            "focaldistance",
+            "frameaspectratio",
+            "screenwindow",
+        ]);
+        let mappings = ["equalarea", "equirectangular"];
+        let mapping = params.choice("mapping", mappings[0], &mappings);
+        let local = match mapping == mappings[0] {
+            true => DMat4::IDENTITY,
+            false => DMat4::from_cols(DVec4::Z, DVec4::Y, DVec4::X, DVec4::W),
+        };
+        let draft = Draft::of(params, Class::Sensor, "spherical");
+        let draft = draft.from(params, "mapping", "mapping", word(mapping));
+        self.posed(draft, local)
     }
 
     /// By how much a CTM scales camera space that scales it evenly and does not move, 1 for any other.

@@ -235,3 +235,26 @@ fn films_of_other_kinds() {
     );
     assert!(notes(r#"Film "gbuffer""#).contains("note: the film `gbuffer` is one of colours"));
 }
+
+/// pbrt looks forward at u = ¼ of an equirectangular picture, and to the right at its left edge.
+#[test]
+fn panoramas() {
+    let pose = |text: &str| {
+        let root = sound(&format!("{FILM}{text} WorldBegin")).root;
+        let sensor = children(&root)
+            .into_iter()
+            .find(|n| n.plugin.value == "spherical")
+            .expect("a camera");
+        let to_world = sensor.properties.iter().find_map(|p| match &p.value {
+            Value::Transform(matrix) => Some(*matrix),
+            _ => None,
+        });
+        to_world.expect("a pose")
+    };
+    let latitudes = pose(r#"Camera "spherical" "string mapping" "equirectangular""#);
+    // Etalon's directions at the left edge and at u = ¼.
+    let [edge, quarter] = [-glam::DVec3::Z, glam::DVec3::X].map(|d| latitudes.transform_vector3(d));
+    assert_eq!([edge, quarter], [glam::DVec3::X, glam::DVec3::Z]);
+    let areas = pose(r#"Camera "spherical""#);
+    assert_eq!(areas.transform_vector3(glam::DVec3::X), -glam::DVec3::X);
+}
