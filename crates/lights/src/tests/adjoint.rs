@@ -113,6 +113,7 @@ fn lights() -> (SmallWorld, Vec<(&'static str, LightDescription)>) {
     let bright = vec![("sun_direction", sun), ("sun_aperture", Value::Float(3.0))];
     lights.push(("sunsky", light(&mut world, "sunsky", bright)));
     lights.push(("projector", light(&mut world, "projector", thrown)));
+    lights.extend(super::goniometric::above_the_patch(&mut world));
     (world, lights)
 }
 
