@@ -33,7 +33,10 @@ impl AngularTable {
     pub(crate) fn new(theta: &[f64], phi: &[f64], values: &[f64]) -> Option<Self> {
         let columns = phi.len();
         let mut masses = Vec::with_capacity(values.len());
-        for (t, rows) in theta.windows(2).zip(values.windows(2 * columns).step_by(columns)) {
+        for (t, rows) in theta
+            .windows(2)
+            .zip(values.windows(2 * columns).step_by(columns))
+        {
             let (above, below) = rows.split_at(columns);
             for (i, p) in phi.windows(2).enumerate() {
                 let g = [above, below].map(|row| 0.5 * (row[i] + row[i + 1]));
@@ -61,7 +64,10 @@ impl AngularTable {
     /// The cosine of the angle from +z beyond which f is 0.
     pub(crate) fn cos_edge(&self) -> f32 {
         let columns = self.phi.len();
-        let lit = self.values.chunks(columns).rposition(|row| row.iter().any(|v| *v > 0.0));
+        let lit = self
+            .values
+            .chunks(columns)
+            .rposition(|row| row.iter().any(|v| *v > 0.0));
         let beyond = lit.map_or(0, |row| row + 1).min(self.theta.len() - 1);
         self.cos_theta[beyond]
     }

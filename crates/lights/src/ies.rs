@@ -64,7 +64,10 @@ impl<'t> Numbers<'t> {
         self.next += 1;
         match token.text.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok((number, token)),
-            _ => Err(token.refuse(format!("`{}` is no number, where {what} is expected", token.text))),
+            _ => Err(token.refuse(format!(
+                "`{}` is no number, where {what} is expected",
+                token.text
+            ))),
         }
     }
 
@@ -102,7 +105,9 @@ impl<'t> Numbers<'t> {
                 return Err(token.refuse(problem));
             }
             if let Some(before) = angles.last().filter(|before| angle <= **before) {
-                return Err(token.refuse(format!("{what} {angle} follows {before}, and they must increase")));
+                return Err(token.refuse(format!(
+                    "{what} {angle} follows {before}, and they must increase"
+                )));
             }
             angles.push(angle);
             ends = Some([ends.map_or(token, |[first, _]| first), token]);
@@ -120,7 +125,9 @@ fn lines(text: &str) -> Vec<(usize, &str)> {
         let end = rest.find(['\r', '\n']).unwrap_or(rest.len());
         lines.push((lines.len() + 1, &rest[..end]));
         let after = &rest[end..];
-        rest = after.strip_prefix("\r\n").unwrap_or_else(|| after.get(1..).unwrap_or_default());
+        rest = after
+            .strip_prefix("\r\n")
+            .unwrap_or_else(|| after.get(1..).unwrap_or_default());
     }
     lines
 }
@@ -158,7 +165,10 @@ fn tilt(line: &str) -> Option<&str> {
 pub(crate) fn is_ies(bytes: &[u8]) -> bool {
     let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 14)]);
     let text = text.trim_start_matches('\u{feff}');
-    text.starts_with("IESNA") || lines(text).into_iter().any(|(_, line)| tilt(line).is_some())
+    text.starts_with("IESNA")
+        || lines(text)
+            .into_iter()
+            .any(|(_, line)| tilt(line).is_some())
 }
 
 impl IesProfile {
@@ -166,11 +176,17 @@ impl IesProfile {
     pub(crate) fn parse(bytes: &[u8]) -> Result<Self, String> {
         let text = String::from_utf8_lossy(bytes);
         let lines = lines(text.trim_start_matches('\u{feff}'));
-        let Some((at, how)) = (lines.iter().enumerate()).find_map(|(i, (_, line))| Some((i, tilt(line)?)))
+        let Some((at, how)) =
+            (lines.iter().enumerate()).find_map(|(i, (_, line))| Some((i, tilt(line)?)))
         else {
-            return Err("it has no line `TILT=`, with which the numbers of an IES file begin".to_owned());
+            return Err(
+                "it has no line `TILT=`, with which the numbers of an IES file begin".to_owned(),
+            );
         };
-        let first = lines.iter().map(|(_, line)| line.trim()).find(|line| !line.is_empty());
+        let first = lines
+            .iter()
+            .map(|(_, line)| line.trim())
+            .find(|line| !line.is_empty());
         let version = first.filter(|line| line.to_ascii_uppercase().starts_with("IESNA"));
         // 1986 and 1991.
         let is_old = version.is_none_or(|version| version.contains("91") || version.contains("86"));
@@ -208,8 +224,10 @@ impl IesProfile {
         let (kind, place) = numbers.number("the photometric type")?;
         if kind != 1.0 {
             let problem = match kind {
-                2.0 => "photometry of type B, as for floodlights, is not read, but type C (1)".to_owned(),
-                3.0 => "photometry of type A, as for headlights, is not read, but type C (1)".to_owned(),
+                2.0 => "photometry of type B, as for floodlights, is not read, but type C (1)"
+                    .to_owned(),
+                3.0 => "photometry of type A, as for headlights, is not read, but type C (1)"
+                    .to_owned(),
                 _ => format!("the photometric type {kind} does not exist; accepted: 1 (type C)"),
             };
             return Err(place.refuse(problem));
@@ -222,7 +240,9 @@ impl IesProfile {
         numbers.number("the input watts")?;
         let lamp = if is_old && lamp > 0.0 { lamp } else { 1.0 };
         if rows.saturating_mul(columns) > MOST_VALUES {
-            return Err(format!("{rows} × {columns} values are more than {MOST_VALUES}"));
+            return Err(format!(
+                "{rows} × {columns} values are more than {MOST_VALUES}"
+            ));
         }
         let (vertical, [start, _]) = numbers.angles(rows, "the vertical angle", 180.0)?;
         if rows < 2 {
@@ -262,19 +282,32 @@ fn whole_turn(given: &[f64]) -> Result<(Vec<f64>, Vec<usize>), String> {
         return Ok((vec![0.0, 360.0], vec![0, 0]));
     }
     let mirror = |around: &mut Vec<(f64, usize)>, about: f64| {
-        let images: Vec<_> = around.iter().map(|(angle, plane)| (2.0 * about - angle, *plane)).collect();
-        around.extend(images.into_iter().filter(|(angle, _)| *angle > last || *angle < first));
+        let images: Vec<_> = around
+            .iter()
+            .map(|(angle, plane)| (2.0 * about - angle, *plane))
+            .collect();
+        around.extend(
+            images
+                .into_iter()
+                .filter(|(angle, _)| *angle > last || *angle < first),
+        );
     };
     match (first, last) {
         (0.0, 90.0) => {
             mirror(&mut around, 90.0);
-            let half: Vec<_> = around.iter().map(|(angle, plane)| (360.0 - angle, *plane)).collect();
+            let half: Vec<_> = around
+                .iter()
+                .map(|(angle, plane)| (360.0 - angle, *plane))
+                .collect();
             around.extend(half.into_iter().filter(|(angle, _)| *angle > 180.0));
         }
         (0.0, 180.0) => mirror(&mut around, 180.0),
-        (90.0, 270.0) => {
+        (90.0, 270.0) if given.contains(&180.0) => {
             mirror(&mut around, 90.0);
-            let turned: Vec<_> = around.iter().map(|(angle, plane)| (angle.rem_euclid(360.0), *plane)).collect();
+            let turned: Vec<_> = around
+                .iter()
+                .map(|(angle, plane)| (angle.rem_euclid(360.0), *plane))
+                .collect();
             around = turned;
             around.sort_by(|a, b| a.0.total_cmp(&b.0));
             around.dedup_by_key(|(angle, _)| *angle);
@@ -288,7 +321,7 @@ fn whole_turn(given: &[f64]) -> Result<(Vec<f64>, Vec<usize>), String> {
         _ => {
             return Err(format!(
                 "horizontal angles from {first} to {last} are no symmetry that there is; accepted: 0 alone, 0 to 90, \
-                 0 to 180, 90 to 270, 0 to 360"
+                 0 to 180, 90 to 270 by way of 180, 0 to 360"
             ));
         }
     }

@@ -7,11 +7,12 @@
 //! | light | what its quantity is |
 //! |---|---|
 //! | `area` | radiance, W·m⁻²·sr⁻¹·nm⁻¹, on the outer side of a shape |
-//! | `point`, `spot` | radiant intensity, W·sr⁻¹·nm⁻¹ |
+//! | `point`, `spot`, `goniometric` | radiant intensity, W·sr⁻¹·nm⁻¹ |
 //! | `directional` | irradiance on a surface perpendicular to the light, W·m⁻²·nm⁻¹ |
 //! | `constant`, `envmap`, `sunsky` | radiance from infinity, W·m⁻²·sr⁻¹·nm⁻¹ |
 
 mod alike;
+mod angular_table;
 pub mod area;
 pub mod bounding_sphere;
 pub mod constant;
@@ -20,6 +21,8 @@ pub mod directional_area;
 pub mod environment;
 pub mod extent;
 pub mod few;
+mod goniometric;
+mod ies;
 pub mod light;
 mod light_model;
 pub mod light_sampler;
@@ -42,6 +45,7 @@ pub use directional_area::DirectionalArea;
 pub use environment::EnvironmentMap;
 pub use extent::{LightBounds, LightExtent};
 pub use few::FewLights;
+pub use goniometric::Goniometric;
 pub use light::{Light, LightDescription};
 pub use light_sampler::{Candidate, Far, LightChoice, LightSampler, LightSamplerKind};
 pub use point::PointLight;

@@ -1,9 +1,10 @@
 //! The list of lights, and how each is read.
 
 use crate::light_model::LightModel;
+use crate::pose::Pose;
 use crate::{
     AreaLight, BoundingSphere, ConstantLight, DirectionalArea, DirectionalLight, EnvironmentMap,
-    LightExtent, PointLight, Projector, SpotLight, SunSky,
+    Goniometric, LightExtent, PointLight, Projector, SpotLight, SunSky,
 };
 use etalon_math::lane::Lane;
 use etalon_math::{Density, DirectionCone, SolidAngle};
@@ -104,6 +105,8 @@ lights! {
     Spot(SpotLight) { "spot" => |params, _, build| SpotLight::from_params(params, build) }
     /// The clear sky and its sun.
     SunSky(SunSky) { "sunsky" => |params, _, build| SunSky::from_params(params, build) }
+    /// A light without extent, by a table.
+    Goniometric(Goniometric) { "goniometric" => |params, _, build| Goniometric::from_params(params, build) }
     /// A picture thrown from a point.
     Projector(Projector) { "projector" => |params, _, build| Projector::from_params(params, build) }
 }
@@ -316,6 +319,17 @@ pub(crate) fn extent_of_point(position: Vec3, shines: DirectionCone, cos_edge: f
         cos_edge,
         power: 0.0,
     }
+}
+
+/// The extent of a light without extent that shines within an angle of this cosine around its z.
+pub(crate) fn extent_of_cone(pose: &Pose, cos_edge: f32) -> LightExtent {
+    let (shines, cos_edge) = if cos_edge > 0.0 {
+        let axis = pose.to_world(Vec3::Z).as_dvec3().normalize();
+        (DirectionCone::along(axis), f64::from(cos_edge))
+    } else {
+        (DirectionCone::ALL, 0.0)
+    };
+    extent_of_point(pose.position, shines, cos_edge)
 }
 
 /// The extent of a shape that emits within an angle of this cosine around its normals.

@@ -8,12 +8,12 @@
 //! same irradiance everywhere. t is the tangent of half the horizontal field of view, a the picture's width over its height, s a scale.
 //! The counterpart of Mitsuba's perspective camera (Mitsuba 3, `projector`). Φ = 4π s Ē t² / a.
 
-use crate::light::extent_of_point;
+use crate::light::extent_of_cone;
 use crate::light_model::LightModel;
 use crate::pose::{Pose, emit_from_point, extent_of_way, sample_point};
 use crate::{BoundingSphere, LightExtent};
 use core::f32::consts::PI;
-use etalon_math::{Animated, DirectionCone};
+use etalon_math::Animated;
 use etalon_params::Params;
 use etalon_params::field_of_view::half_width_from_params;
 use etalon_spectrum::Wavelengths;
@@ -137,10 +137,8 @@ impl LightModel for Projector {
     }
 
     fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {
-        let axis = self.pose.start().to_world(Vec3::Z).as_dvec3().normalize();
-        let cos_corner = 1.0 / (1.0 + self.half.as_dvec2().length_squared()).sqrt();
-        let position = self.pose.start().position;
-        let still = extent_of_point(position, DirectionCone::along(axis), cos_corner);
+        let cos_corner = 1.0 / (1.0 + self.half.length_squared()).sqrt();
+        let still = extent_of_cone(self.pose.start(), cos_corner);
         Some(extent_of_way(&self.pose, still))
     }
 }

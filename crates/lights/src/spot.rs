@@ -8,12 +8,12 @@
 //! axis: a direction (x, y, z) of the light's space sees u = ½ + x/(2 z tan c),
 //! v = ½ + y/(2 z tan c), c the cutoff angle. Without texture the power is I₀ ∫ f dω.
 
-use crate::light::{anywhere, extent_of_point};
+use crate::light::{anywhere, extent_of_cone};
 use crate::light_model::LightModel;
 use crate::pose::{Pose, emit_from_point, extent_of_way, sample_point};
 use crate::spot_profile::SpotProfile;
 use crate::{BoundingSphere, LightExtent};
-use etalon_math::{Animated, DirectionCone, float64};
+use etalon_math::{Animated, float64};
 use etalon_params::{Class, Params, Value};
 use etalon_sampling::warps::{square_to_uniform_cone, uniform_cone_density};
 use etalon_spectrum::Wavelengths;
@@ -163,16 +163,7 @@ impl LightModel for SpotLight {
     }
 
     fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {
-        let (shines, cos_edge) = if self.profile.cos_cutoff > 0.0 {
-            let axis = self.pose.start().to_world(Vec3::Z).as_dvec3().normalize();
-            (
-                DirectionCone::along(axis),
-                f64::from(self.profile.cos_cutoff),
-            )
-        } else {
-            (DirectionCone::ALL, 0.0)
-        };
-        let still = extent_of_point(self.pose.start().position, shines, cos_edge);
+        let still = extent_of_cone(self.pose.start(), self.profile.cos_cutoff);
         Some(extent_of_way(&self.pose, still))
     }
 }

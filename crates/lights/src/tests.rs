@@ -19,6 +19,8 @@ mod adjoint;
 mod constant;
 mod environment;
 mod few;
+mod goniometric;
+mod ies;
 mod mistakes;
 mod mitsuba;
 mod selection;

@@ -83,7 +83,18 @@ pub(crate) fn upgrade(object: &mut DraftObject) -> Option<Diagnostic> {
         }
     }
     match (class, plugin.as_str()) {
-        (Class::Emitter, "sunsky") => sun_and_sky(object),
+        (Class::Emitter, "sunsky" | "sky" | "sun") => {
+            let missing = match plugin.as_str() {
+                "sky" => Some("sun_scale"),
+                "sun" => Some("sky_scale"),
+                _ => None,
+            };
+            if let Some(missing) = missing {
+                object.plugin.value = "sunsky".into();
+                add_default(object, missing, Value::Float(0.0));
+            }
+            sun_and_sky(object);
+        }
         (Class::Integrator, "ppm" | "sppm") => {
             // 0 asked for the width of some pixels, as the default does.
             object

@@ -127,6 +127,7 @@ fn lights() -> (SmallWorld, Vec<(&'static str, LightDescription)>) {
         ("twosided", Value::Boolean(true)),
     ];
     lights.push(("area", light(&mut world, "area", both)));
+    lights.extend(super::goniometric::above_the_patch(&mut world));
     (world, lights)
 }
 

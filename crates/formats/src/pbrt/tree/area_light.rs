@@ -3,12 +3,13 @@
 //! Both emit on the side of the normal, or with `twosided` on both. The radiance is L divided by its luminance (not for an `rgb`, see `spectrum`), times `scale`; a
 //! `power` Φ makes it Φ / (π A) times that, half of it on either side of two, in which A is the area of one sphere, disk, cylinder, triangle or patch: pbrt makes a light of each,
 //! so a mesh of n triangles has n Φ. Of quadrics A is measured in their own space, before the CTM. The colour of an `rgb` does not count in
-//! that either. An image is looked up by (u, v), counted from the bottom, between its texels.
+//! that either; of an image its mean luminance does. An image is looked up by (u, v), counted from the bottom, between its texels.
 
 use super::super::parameters::Parameters;
 use super::super::scene::Entity;
 use super::Mapper;
 use super::node::{Draft, given, word};
+use super::picture::luminance;
 use super::spectrum::Role;
 use super::textures::Rows;
 use etalon_params::{Class, Node, Value};
@@ -46,15 +47,19 @@ impl<'a> Mapper<'a> {
         }
         let mut factor = scale;
         if power > 0.0 {
-            let Some(area) = area.filter(|area| *area > 0.0 && image.is_none()) else {
-                let what = "`power` of images and of shapes whose parts differ in area";
+            let Some(area) = area.filter(|area| *area > 0.0) else {
+                let what = "`power` of shapes whose parts differ in area";
                 let accepted =
                     "`scale`, or a sphere, a disk, a cylinder or triangles of the same area";
                 self.refuse_value(params, "power", what, accepted);
                 return None;
             };
             let sides = if twosided { 2.0 } else { 1.0 };
-            factor *= power / (PI * area * sides);
+            let mean = match image {
+                Some(filename) => self.picture(params, filename)?.mean(luminance),
+                None => 1.0,
+            };
+            factor *= power / (PI * area * sides * mean);
         }
         let mut draft = Draft::of(params, Class::Emitter, "area");
         if twosided {

@@ -3,6 +3,7 @@
 //! | pbrt | Etalon | the spectrum times |
 //! |---|---|---|
 //! | point | `point` | scale, and Φ / 4π with a `power` Φ |
+//! | goniometric | `goniometric`, with y and z exchanged | scale, and Φ / 4π times the mean of the image's numbers |
 //! | spot | `spot`, with the falloff smooth in the cosine | scale, and Φ / 2π[(1 − cos b) + (cos b − cos c)/2] |
 //! | distant | `directional`, from `from` to `to` | scale, and E with an `illuminance` E |
 //! | infinite with `L` | `constant` | scale, and E / π |
@@ -19,6 +20,7 @@ use super::picture::{Picture, luminance};
 use super::spectrum::Role;
 use etalon_math::{equal_area, float64};
 use etalon_params::{Class, DMat4, DVec3, Node, Value};
+use glam::DVec4;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -33,8 +35,9 @@ impl<'a> Mapper<'a> {
             "spot" => self.spot(params, to_world),
             "distant" => self.distant(params, to_world),
             "infinite" => self.infinite(params, to_world),
+            "goniometric" => self.goniometric(params, to_world),
             _ => {
-                let accepted = "point, spot, distant, infinite, and area lights";
+                let accepted = "point, spot, distant, infinite, goniometric, and area lights";
                 self.refuse(params, "light", accepted);
                 return None;
             }
@@ -44,7 +47,7 @@ impl<'a> Mapper<'a> {
         let draft = found?;
         Some(match medium {
             // What is infinitely far away is in no medium.
-            Some(medium) if ["point", "spot"].contains(&params.entity.kind) => {
+            Some(medium) if ["point", "spot", "goniometric"].contains(&params.entity.kind) => {
                 draft.child(medium?).node()
             }
             _ => draft.node(),
@@ -145,6 +148,27 @@ impl<'a> Mapper<'a> {
         let radiance = self.light_spectrum(params, "L", factor)?;
         let draft = Draft::of(params, Class::Emitter, "constant");
         Some(draft.given("radiance", radiance))
+    }
+
+    fn goniometric(&mut self, params: &Parameters<'a>, to_world: DMat4) -> Option<Draft> {
+        let Some(filename) = params.string("filename") else {
+            params.missing("string filename");
+            return None;
+        };
+        let power = params.float("power", -1.0);
+        let mut factor = light_scale(params);
+        if power > 0.0 {
+            let picture = self.picture(params, filename)?;
+            let mean = picture.mean(|[r, g, b]| f64::from(r + g + b) / 3.0);
+            factor *= power / (4.0 * PI * mean);
+        }
+        let intensity = self.light_spectrum(params, "I", factor)?;
+        let exchanged = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::Y, DVec4::W);
+        let draft = Draft::of(params, Class::Emitter, "goniometric")
+            .plain("to_world", Value::Transform(to_world * exchanged))
+            .from(params, "filename", "filename", word(filename))
+            .plain("mapping", word("equalarea"));
+        Some(draft.given("intensity", intensity))
     }
 
     /// An image at infinity, times a factor, or so that it has an illuminance if that is above 0.

@@ -16,6 +16,14 @@ pub(crate) struct Picture {
     pub(crate) rgb: Vec<[f32; 3]>,
 }
 
+impl Picture {
+    /// The mean of a number of each pixel.
+    pub(crate) fn mean(&self, of: impl Fn([f32; 3]) -> f64) -> f64 {
+        let sum: f64 = self.rgb.iter().map(|&rgb| of(rgb)).sum();
+        sum / self.rgb.len() as f64
+    }
+}
+
 /// The luminance of a colour in linear Rec. 709.
 pub(crate) fn luminance(rgb: [f32; 3]) -> f64 {
     let [r, g, b] = rgb.map(f64::from);
