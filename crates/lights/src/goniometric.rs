@@ -219,7 +219,8 @@ impl Table {
             Self::Luminaire(table) => table.density(about_nadir(local)),
             Self::Globe(table) => table.density(about_up(local)),
             Self::Square(cells) => {
-                cells.density(Vec2::from(equal_area::to_square::<f32>(local))) / (2.0 * core::f32::consts::TAU)
+                cells.density(Vec2::from(equal_area::to_square::<f32>(local)))
+                    / (2.0 * core::f32::consts::TAU)
             }
         }
     }

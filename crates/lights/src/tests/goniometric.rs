@@ -2,9 +2,9 @@
 
 use super::*;
 use core::f64::consts::PI;
+use etalon_math::equal_area;
 use etalon_math::float64::{cos, sin};
 use etalon_params::{DMat4, DVec3};
-use etalon_sampling::octahedral;
 
 /// A floodlight that is different all around, dark above 70°.
 const LAMP: &str = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 683 5 5 1 2 0 0 0\n1 1 60\n0 20 45 70 90\n0 90 180 270 360\n\
@@ -102,7 +102,11 @@ fn images_are_the_right_way_around() {
     let mut sky = light(&mut world, "envmap", vec![file("i.pfm")]).light;
     for i in 0..16 {
         let place = (Vec2::new((i % 4) as f32, (i / 4) as f32) + 0.5) / 4.0;
-        let found = intensity(&world, &square, octahedral::to_direction(place));
+        let found = intensity(
+            &world,
+            &square,
+            equal_area::to_direction::<f32>(place.to_array()),
+        );
         assert!((found - f64::from(i) - 1.0).abs() < 1e-4, "{i} {found}");
         let (toward, _) = etalon_sampling::latitude_longitude::to_direction::<f32>(place.into());
         let found = intensity(&world, &globe, toward);

@@ -47,7 +47,11 @@ fn every_type_is_mapped_or_named() {
         assert_mapped_or_named(kind, &format!("Accelerator \"{kind}\" WorldBegin"));
     }
     for kind in kinds::LIGHT.names() {
-        let file = if *kind == "goniometric" { "\"string filename\" \"a.exr\"" } else { "" };
+        let file = if *kind == "goniometric" {
+            "\"string filename\" \"a.exr\""
+        } else {
+            ""
+        };
         assert_mapped_or_named(kind, &format!("WorldBegin LightSource \"{kind}\" {file}"));
     }
     for kind in kinds::AREA_LIGHT.names() {
