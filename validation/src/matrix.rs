@@ -129,6 +129,7 @@ pub(crate) fn expand(claim: &mut Claim) -> Result<(), String> {
         rows.push(Estimator {
             adaptive: None,
             blocks: false,
+            scene: None,
             integrator: Some(name.to_owned()),
             sampler: None,
             light_chooser: None,

@@ -10,6 +10,7 @@ use etalon_render::pilot::Failure;
 use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderControls, RenderOptions};
 use etalon_sampling::SamplerKind;
 use etalon_scene::LightSamplerKind;
+use std::path::Path;
 
 /// The scene parameters of a claim, and of one of its estimators.
 pub fn defines(claim: &Claim, estimator: Option<&Estimator>) -> Vec<(String, String)> {
@@ -26,7 +27,7 @@ pub fn load(
     integrator: Option<&str>,
 ) -> Result<Loaded, String> {
     load_with(
-        claim,
+        &claim.scene,
         &LoadOptions {
             defines: defines.to_vec(),
             integrator: integrator.map(str::to_owned),
@@ -35,8 +36,8 @@ pub fn load(
     )
 }
 
-fn load_with(claim: &Claim, options: &LoadOptions) -> Result<Loaded, String> {
-    pipeline::load(&folders::scenes().join(&claim.scene), options).map_err(|refusal| {
+fn load_with(scene: &Path, options: &LoadOptions) -> Result<Loaded, String> {
+    pipeline::load(&folders::scenes().join(scene), options).map_err(|refusal| {
         let lines: Vec<String> = refusal
             .diagnostics
             .iter()
@@ -59,7 +60,7 @@ pub fn load_for(claim: &Claim, estimator: &Estimator) -> Result<Loaded, String> 
         }
     };
     load_with(
-        claim,
+        estimator.scene.as_ref().unwrap_or(&claim.scene),
         &LoadOptions {
             defines: defines(claim, Some(estimator)),
             integrator: estimator.integrator.clone(),

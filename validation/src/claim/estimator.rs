@@ -7,6 +7,7 @@ use crate::fault::PlantedFault;
 use etalon_render::decide::convergence::Part;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// What an invariance claim changes, beside an estimator's parameters.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -40,6 +41,8 @@ impl Change {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Estimator {
+    /// Another description of the scene, below `scenes/`, if not the claim's; the claim's `defines` are not for it.
+    pub scene: Option<PathBuf>,
     /// The integrator, if not the scene's.
     pub integrator: Option<String>,
     /// The sampler, if not the scene's.
@@ -99,7 +102,11 @@ impl Estimator {
             .unwrap_or_default();
         let adaptive = self.adaptive.map_or("", |_| ", adaptive");
         let blocks = if self.blocks { ", blocks" } else { "" };
-        format!("{integrator}, {sampler}{chooser}{blocks}{adaptive}{defines}{change}")
+        let language = (self.scene.as_ref())
+            .and_then(|scene| scene.extension())
+            .map(|ending| format!(", .{}", ending.to_string_lossy()))
+            .unwrap_or_default();
+        format!("{integrator}, {sampler}{chooser}{blocks}{adaptive}{language}{defines}{change}")
     }
 
     /// The work of the first run that makes its row.

@@ -161,7 +161,9 @@ impl<'a> Mapper<'a> {
             .plain("filename", word(filename))
             .plain("raw", Value::Boolean(true))
             .plain("to_uv", Value::Transform(Rows::turned()));
-        let draft = Draft::new(Class::Bsdf, "normalmap", span);
+        // pbrt's facets cast no shadows on each other.
+        let draft = Draft::new(Class::Bsdf, "normalmap", span)
+            .plain("use_shadowing_function", Value::Boolean(false));
         let picture = given(Value::Object(picture.node()), span);
         Some(draft.given("normalmap", picture).child(bsdf).node())
     }

@@ -151,7 +151,7 @@ fn mixtures_and_maps() {
         r#"Texture "h" "float" "imagemap" "string filename" "h.png" "float scale" 0.1
            Material "diffuse" "string normalmap" "n.png" "texture displacement" "h""#,
         &format!(
-            r#"<bsdf type="normalmap">
+            r#"<bsdf type="normalmap"><boolean name="use_shadowing_function" value="false"/>
                 <texture type="bitmap" name="normalmap"><string name="filename" value="n.png"/>
                     <boolean name="raw" value="true"/>{turned}</texture>
                 <bsdf type="bumpmap">
