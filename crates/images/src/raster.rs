@@ -102,6 +102,12 @@ impl Raster {
         &self.samples
     }
 
+    /// The samples as they were stored, without the picture.
+    #[must_use]
+    pub fn into_samples(self) -> Samples {
+        self.samples
+    }
+
     /// The kind of file it came from.
     #[must_use]
     pub fn format(&self) -> Format {

@@ -33,14 +33,44 @@ pub fn decode(encoded: f32) -> f32 {
     (linear as f32).copysign(encoded)
 }
 
-/// The linear value of each 8-bit encoding.
-static DECODED: LazyLock<[f32; 256]> =
-    LazyLock::new(|| std::array::from_fn(|byte| decode(byte as f32 / 255.0)));
+/// The values of integers, up to the greatest, which is 1: as they are, and decoded.
+struct Tables {
+    plain: Vec<f32>,
+    decoded: Vec<f32>,
+}
+
+impl Tables {
+    fn up_to(greatest: u16) -> Self {
+        let plain = (0..=greatest).map(|x| f32::from(x) / f32::from(greatest));
+        let plain: Vec<f32> = plain.collect();
+        let decoded = plain.iter().copied().map(decode).collect();
+        Self { plain, decoded }
+    }
+
+    fn get(&self, encoded: bool) -> &[f32] {
+        if encoded { &self.decoded } else { &self.plain }
+    }
+}
+
+static OF_8_BITS: LazyLock<Tables> = LazyLock::new(|| Tables::up_to(255));
+static OF_16_BITS: LazyLock<Tables> = LazyLock::new(|| Tables::up_to(65535));
+
+/// The value of each 8-bit integer, linear if they are `encoded`, otherwise as it is.
+#[must_use]
+pub fn values_of_8_bits(encoded: bool) -> &'static [f32] {
+    OF_8_BITS.get(encoded)
+}
+
+/// The same of 16 bits.
+#[must_use]
+pub fn values_of_16_bits(encoded: bool) -> &'static [f32] {
+    OF_16_BITS.get(encoded)
+}
 
 /// The linear value of an 8-bit encoding.
 #[must_use]
 pub fn decode_u8(encoded: u8) -> f32 {
-    DECODED[usize::from(encoded)]
+    values_of_8_bits(true)[usize::from(encoded)]
 }
 
 /// The 8-bit encoding nearest to a linear value: 0 below 0, 255 above 1, and 0 for NaN.

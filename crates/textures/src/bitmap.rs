@@ -5,8 +5,10 @@
 //! the coefficients cᵢ instead would give colours that are in none of the texels.
 
 use crate::bilinear_tap::BilinearTap;
+use crate::coded::At;
 use crate::decode::ImageChannel;
-use crate::pixels::{Image, Pixels, Texels, Values};
+use crate::picture::{FilePixels, Picture, Stored, ask};
+use crate::pixels::{Texels, Values};
 use crate::reader::Use;
 use crate::recovered::{self, luminance};
 use crate::texture::TextureModel;
@@ -22,7 +24,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bitmap {
     /// The image.
-    pub image: Arc<Image>,
+    pub image: Arc<Picture>,
     /// `filter_type`.
     pub filter: Filter,
     /// `wrap_mode`.
@@ -59,28 +61,30 @@ impl Bitmap {
     /// The spectrum at `uv`.
     #[inline]
     pub fn spectrum(&self, uv: Vec2, lambda: Vec4) -> Vec4 {
-        match &self.image.texels {
-            Texels::Number(texels) => Vec4::splat(self.average(uv, |i| texels[i])),
-            Texels::Colour(texels) => self.average(uv, |i| RgbCoefficients(texels[i]).eval(lambda)),
-            Texels::Bright(texels) => self.average(uv, |i| {
-                let [a, b, c, scale] = texels[i];
-                RgbCoefficients([a, b, c]).eval(lambda) * scale
-            }),
+        ask!(&self.image.stored,
+            numbers => Vec4::splat(self.average(uv, |i| numbers.at(i))),
             // Does not occur in scenes that Mitsuba accepts; the channels are taken for a colour.
-            Texels::Raw(texels) => {
-                let rgb = self.average(uv, |i| Vec3::from_array(texels[i]));
+            raw => {
+                let rgb = self.average(uv, |i| Vec3::from_array(raw.at(i)));
                 RgbCoefficients::from_rgb(rgb.to_array()).eval(lambda)
-            }
-        }
+            },
+            colours => self.average(uv, |i| RgbCoefficients(colours.at(i)).eval(lambda)),
+            bright => self.average(uv, |i| {
+                let [a, b, c, scale] = bright.at(i);
+                RgbCoefficients([a, b, c]).eval(lambda) * scale
+            })
+        )
     }
 
     /// The number at `uv`: the luminance of a colour.
     #[inline]
     pub fn number(&self, uv: Vec2) -> f32 {
-        match &self.image.texels {
-            Texels::Number(texels) => self.average(uv, |i| texels[i]),
-            _ => luminance(self.colour(uv)),
-        }
+        ask!(&self.image.stored,
+            numbers => self.average(uv, |i| numbers.at(i)),
+            _raw => luminance(self.colour(uv)),
+            _colours => luminance(self.colour(uv)),
+            _bright => luminance(self.colour(uv))
+        )
     }
 
     /// (∂/∂u, ∂/∂v) of the number at `uv`: exact where it is interpolated; an image of steps has none.
@@ -91,16 +95,18 @@ impl Bitmap {
         let at = self.to_uv.apply(uv);
         let size = self.image.size.as_vec2();
         let tap = BilinearTap::bilinear(at, self.image.size, self.wrap);
-        let number = |texel: usize| match &self.image.texels {
-            Texels::Number(texels) => texels[texel],
-            Texels::Raw(texels) => luminance(Vec3::from_array(texels[texel])),
-            Texels::Colour(texels) => luminance(recovered::colour(|lambda| {
-                RgbCoefficients(texels[texel]).eval(lambda)
-            })),
-            Texels::Bright(texels) => luminance(recovered::colour(|lambda| {
-                let [a, b, c, scale] = texels[texel];
-                RgbCoefficients([a, b, c]).eval(lambda) * scale
-            })),
+        let number = |texel: usize| -> f32 {
+            ask!(&self.image.stored,
+                numbers => numbers.at(texel),
+                raw => luminance(Vec3::from_array(raw.at(texel))),
+                colours => luminance(recovered::colour(|lambda| {
+                    RgbCoefficients(colours.at(texel)).eval(lambda)
+                })),
+                bright => luminance(recovered::colour(|lambda| {
+                    let [a, b, c, scale] = bright.at(texel);
+                    RgbCoefficients([a, b, c]).eval(lambda) * scale
+                }))
+            )
         };
         let [a, b, c, d] = tap.texels.map(number);
         let right = tap.weights[1] + tap.weights[3];
@@ -115,13 +121,13 @@ impl Bitmap {
     /// The channels at `uv`: as stored, or those of the colour.
     #[inline]
     pub fn colour(&self, uv: Vec2) -> Vec3 {
-        match &self.image.texels {
-            Texels::Number(texels) => Vec3::splat(self.average(uv, |i| texels[i])),
-            Texels::Raw(texels) => self.average(uv, |i| Vec3::from_array(texels[i])),
-            Texels::Colour(_) | Texels::Bright(_) => {
-                recovered::colour(|lambda| self.spectrum(uv, lambda))
-            }
-        }
+        let recovered = || recovered::colour(|lambda| self.spectrum(uv, lambda));
+        ask!(&self.image.stored,
+            numbers => Vec3::splat(self.average(uv, |i| numbers.at(i))),
+            raw => self.average(uv, |i| Vec3::from_array(raw.at(i))),
+            _colours => recovered(),
+            _bright => recovered()
+        )
     }
 }
 
@@ -192,7 +198,7 @@ fn image(
     filename: &str,
     (raw, channel): (bool, Option<ImageChannel>),
     role: SpectrumKind,
-) -> Option<Arc<Image>> {
+) -> Option<Arc<Picture>> {
     let is_bounded = role == SpectrumKind::Reflectance;
     let key = (filename.to_owned(), raw, channel, is_bounded);
     if let Some(image) = reader.set.images.get(&key) {
@@ -211,7 +217,7 @@ fn image(
             return None;
         }
     };
-    let (pixels, notes) = match Pixels::decode(&bytes, raw, channel, filename) {
+    let (size, pixels, notes) = match FilePixels::decode(&bytes, raw, channel, filename) {
         Ok(decoded) => decoded,
         Err(message) => {
             fail(message, None);
@@ -223,7 +229,10 @@ fn image(
             .diagnostics
             .push(Diagnostic::note(property.span, note));
     }
-    let negative = matches!(&pixels.values, Values::One(v) if v.iter().any(|&x| x < 0.0));
+    // The pixels are all that is needed of a file that may be large.
+    drop(bytes);
+    let negative =
+        matches!(&pixels, FilePixels::Floats(Values::One(v)) if v.iter().any(|&x| x < 0.0));
     if negative && role == SpectrumKind::Emission {
         fail(
             format!("`{filename}` has negative values, which no light can emit"),
@@ -231,7 +240,7 @@ fn image(
         );
         return None;
     }
-    let image = Image::new(pixels, raw, role, false);
+    let image = Picture::new(size, pixels, raw, role);
     if image.moved > 0 {
         let UVec2 { x, y } = image.size;
         let message = format!(

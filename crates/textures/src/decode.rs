@@ -1,8 +1,11 @@
 //! From the bytes of an image file to pixels.
 
-use crate::pixels::{Pixels, Values};
-use etalon_images::raster_file;
+use crate::coded::Coded;
+use crate::picture::FilePixels;
+use crate::pixels::Values;
+use etalon_images::{Samples, raster_file, srgb};
 use glam::UVec2;
+use std::ops::Range;
 use std::path::Path;
 
 /// One channel of an image.
@@ -14,8 +17,8 @@ pub enum ImageChannel {
     Alpha,
 }
 
-impl Pixels {
-    /// Decodes an image file, whose format is known by its content. Integer samples are taken to
+impl FilePixels {
+    /// Decodes an image file, whose format is known by its content, to its size and pixels. Integer samples are taken to
     /// be encoded as sRGB, unless `raw`; floats are linear. Alpha is dropped (not divided by), as
     /// Mitsuba does, unless it is the one `channel` that is wanted. `name` is for messages, which name the file. Beside the
     /// pixels stands what their user should know of the file.
@@ -24,15 +27,10 @@ impl Pixels {
         raw: bool,
         channel: Option<ImageChannel>,
         name: &str,
-    ) -> Result<(Self, Vec<String>), String> {
+    ) -> Result<(UVec2, Self, Vec<String>), String> {
         let raster =
             raster_file::decode(bytes, Path::new(name)).map_err(|error| error.to_string())?;
         let size = UVec2::new(raster.width() as u32, raster.height() as u32);
-        let samples = if raw {
-            raster.to_floats()
-        } else {
-            raster.to_linear()
-        };
         let channels = raster.channels();
         let wanted = match channel {
             None => None,
@@ -42,24 +40,55 @@ impl Pixels {
         };
         let notes = raster.notes(raw);
         let notes = notes.map(|note| format!("`{name}`: {note}")).collect();
-        drop(raster);
         if size.x == 0 || size.y == 0 {
             return Err(format!("`{name}` is an empty image"));
         }
-        if let Some(i) = samples.iter().position(|x| !x.is_finite()) {
-            let pixel = (i / channels) as u32;
-            let (x, y) = (pixel % size.x, pixel / size.x);
-            return Err(format!(
-                "the pixel in column {x} of row {y} of `{name}` is not finite (both counted from 0)"
-            ));
-        }
-        let pixels = samples.chunks_exact(channels);
-        let values = match (wanted, channels) {
-            (Some(wanted), _) => Values::One(pixels.map(|pixel| pixel[wanted]).collect()),
-            (None, 1) => Values::One(samples),
-            (None, 2) => Values::One(pixels.map(|pixel| pixel[0]).collect()),
-            (None, _) => Values::Three(pixels.map(|p| [p[0], p[1], p[2]]).collect()),
+        let kept = match wanted {
+            Some(channel) => channel..channel + 1,
+            None => 0..if channels < 3 { 1 } else { 3 },
         };
-        Ok((Self { size, values }, notes))
+        let encoded = !raw && channel != Some(ImageChannel::Alpha);
+        let pixels = match raster.into_samples() {
+            Samples::U8(samples) => Self::Bytes(Coded {
+                channels: kept.len(),
+                samples: of_channels(samples, channels, kept),
+                values: srgb::values_of_8_bits(encoded),
+            }),
+            Samples::U16(samples) => Self::Words(Coded {
+                channels: kept.len(),
+                samples: of_channels(samples, channels, kept),
+                values: srgb::values_of_16_bits(encoded),
+            }),
+            Samples::F32(samples) => {
+                if let Some(i) = samples.iter().position(|x| !x.is_finite()) {
+                    let pixel = (i / channels) as u32;
+                    let (x, y) = (pixel % size.x, pixel / size.x);
+                    return Err(format!(
+                        "the pixel in column {x} of row {y} of `{name}` is not finite (both counted from 0)"
+                    ));
+                }
+                let pixels = samples.chunks_exact(channels);
+                Self::Floats(match kept.len() {
+                    1 => Values::One(of_channels(samples, channels, kept)),
+                    _ => Values::Three(pixels.map(|p| [p[0], p[1], p[2]]).collect()),
+                })
+            }
+        };
+        Ok((size, pixels, notes))
     }
+}
+
+/// Some neighbouring channels of each pixel, in the memory of all of them.
+fn of_channels<S: Copy>(mut samples: Vec<S>, channels: usize, kept: Range<usize>) -> Vec<S> {
+    if kept.len() == channels {
+        return samples;
+    }
+    let pixels = samples.len() / channels;
+    for pixel in 0..pixels {
+        let from = pixel * channels;
+        samples.copy_within(from + kept.start..from + kept.end, pixel * kept.len());
+    }
+    samples.truncate(pixels * kept.len());
+    samples.shrink_to_fit();
+    samples
 }

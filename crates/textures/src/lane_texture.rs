@@ -1,6 +1,8 @@
 //! Spectra of textures at several points in lanes: colours, images of colours, and anything else one by one.
 
 use crate::bilinear_tap::BilinearTap;
+use crate::coded::At;
+use crate::picture::{Stored, ask};
 use crate::pixels::Texels;
 use crate::{Bitmap, Filter, Texture, TextureTable};
 use etalon_math::lane::{Lane, Spectral};
@@ -43,10 +45,12 @@ impl From<&Texture> for LaneTexture {
                 _ => Way::Other,
             },
             Texture::Bitmap(bitmap) if bitmap.filter == Filter::Bilinear => {
-                match &bitmap.image.texels {
-                    Texels::Colour(_) | Texels::Bright(_) => Way::Image,
-                    _ => Way::Other,
-                }
+                ask!(&bitmap.image.stored,
+                    _numbers => Way::Other,
+                    _raw => Way::Other,
+                    _colours => Way::Image,
+                    _bright => Way::Image
+                )
             }
             _ => Way::Other,
         };
@@ -59,14 +63,15 @@ impl Bitmap {
     /// The coefficients of a texel's spectrum, and a factor.
     #[inline]
     fn coefficients(&self, texel: usize) -> [f32; 4] {
-        match &self.image.texels {
-            Texels::Colour(texels) => {
-                let [a, b, c] = texels[texel];
+        ask!(&self.image.stored,
+            _numbers => unreachable!("an image of colours"),
+            _raw => unreachable!("an image of colours"),
+            colours => {
+                let [a, b, c] = colours.at(texel);
                 [a, b, c, 1.0]
-            }
-            Texels::Bright(texels) => texels[texel],
-            Texels::Number(_) | Texels::Raw(_) => unreachable!("an image of colours"),
-        }
+            },
+            bright => bright.at(texel)
+        )
     }
 
     #[inline]

@@ -50,16 +50,18 @@ pub struct Image {
     pub moved: usize,
 }
 
-impl Image {
-    /// Memory of its texels (bytes).
+impl Texels {
+    /// Their memory (bytes).
     pub(crate) fn bytes(&self) -> usize {
-        match &self.texels {
-            Texels::Number(texels) => size_of_val(&texels[..]),
-            Texels::Raw(texels) | Texels::Colour(texels) => size_of_val(&texels[..]),
-            Texels::Bright(texels) => size_of_val(&texels[..]),
+        match self {
+            Self::Number(texels) => size_of_val(&texels[..]),
+            Self::Raw(texels) | Self::Colour(texels) => size_of_val(&texels[..]),
+            Self::Bright(texels) => size_of_val(&texels[..]),
         }
     }
+}
 
+impl Image {
     /// Prepares pixels for look-up. With `raw`, three channels are not converted to spectra. Numbers and
     /// colours above 1 are kept if `role` allows them, colours with a spectrum as for a bright `rgb`
     /// value; negative colours never are.
@@ -80,7 +82,7 @@ impl Image {
                 (Texels::Number(values), mean)
             }
             Values::Three(values) => {
-                let mean = luminance(mean_colour(&values));
+                let mean = luminance(mean_colour(values.iter().copied()));
                 let texels = if raw {
                     Texels::Raw(values)
                 } else {
@@ -102,21 +104,22 @@ impl Image {
 }
 
 /// The mean, summed in double precision.
-fn mean(values: impl ExactSizeIterator<Item = f32>) -> f32 {
+pub(crate) fn mean(values: impl ExactSizeIterator<Item = f32>) -> f32 {
     let count = values.len() as f64;
     (values.map(f64::from).sum::<f64>() / count) as f32
 }
 
 /// The mean colour, summed in double precision.
-fn mean_colour(values: &[[f32; 3]]) -> Vec3 {
-    let sum = values.iter().fold(DVec3::ZERO, |sum, &rgb| {
+pub(crate) fn mean_colour(values: impl ExactSizeIterator<Item = [f32; 3]>) -> Vec3 {
+    let count = values.len() as f64;
+    let sum = values.fold(DVec3::ZERO, |sum, rgb| {
         sum + Vec3::from_array(rgb).as_dvec3()
     });
-    (sum / values.len() as f64).as_vec3()
+    (sum / count).as_vec3()
 }
 
 /// Coefficients of colours met lately: the images of the world repeat themselves.
-struct Recent {
+pub(crate) struct Recent {
     /// Colours with their coefficients, each at the place that its hash gives it.
     places: Vec<([f32; 3], [f32; 3])>,
 }
@@ -125,7 +128,7 @@ impl Recent {
     /// log₂ of the number of places: 96 KiB, which stay in a processor's second cache.
     const BITS: u32 = 12;
 
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let RgbCoefficients(black) = RgbCoefficients::from_rgb([0.0; 3]);
         Self {
             places: vec![([0.0; 3], black); 1 << Self::BITS],
@@ -134,7 +137,7 @@ impl Recent {
 
     /// The coefficients of a colour.
     #[inline]
-    fn coefficients(&mut self, rgb: [f32; 3]) -> [f32; 3] {
+    pub(crate) fn coefficients(&mut self, rgb: [f32; 3]) -> [f32; 3] {
         let [r, g, b] = rgb.map(f32::to_bits);
         // Multiplicative hashing; the multipliers are odd and otherwise arbitrary.
         let mixed = r.wrapping_mul(0x9e37_79b1) ^ g.wrapping_mul(0x85eb_ca77);

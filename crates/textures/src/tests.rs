@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 mod arithmetic;
 mod bitmap;
+mod integers;
 mod lanes;
 mod mesh_attribute;
 mod procedural;

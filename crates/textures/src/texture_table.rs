@@ -2,7 +2,7 @@
 
 use crate::decode::ImageChannel;
 use crate::lane_texture::LaneTexture;
-use crate::pixels::Image;
+use crate::picture::Picture;
 use crate::{Constant, Texture};
 use etalon_params::{Node, Span};
 use etalon_spectrum::Spectrum;
@@ -27,7 +27,7 @@ pub struct TextureTable {
     pub(crate) nodes: Vec<Arc<Node>>,
     /// Those that have values in space, by the bits of their means.
     alike: HashMap<u32, Vec<TextureId>>,
-    pub(crate) images: HashMap<(String, bool, Option<ImageChannel>, bool), Arc<Image>>,
+    pub(crate) images: HashMap<(String, bool, Option<ImageChannel>, bool), Arc<Picture>>,
 }
 
 impl TextureTable {

@@ -20,7 +20,7 @@ fn bitmap(role: SpectrumKind, bright: bool, wrap: Wrap, filter: Filter) -> Textu
     let colours = (0..6).map(|i| [number(i), number(i + 7), number(i + 20)]);
     let values = Values::Three(colours.collect());
     Texture::from(Bitmap {
-        image: Arc::new(Image::new(Pixels { size, values }, false, role, bright)),
+        image: Arc::new(Image::new(Pixels { size, values }, false, role, bright).into()),
         filter,
         wrap,
         to_uv: UvTransform::IDENTITY,
