@@ -77,7 +77,11 @@ impl Claim {
     /// The scene's parameters as an estimator, or the oracle alone, has them.
     pub fn defines_of(&self, estimator: Option<&Estimator>) -> BTreeMap<String, toml::Value> {
         let own_scene = estimator.is_some_and(|e| e.scene.is_some());
-        let mut all = if own_scene { BTreeMap::new() } else { self.defines.clone() };
+        let mut all = if own_scene {
+            BTreeMap::new()
+        } else {
+            self.defines.clone()
+        };
         all.extend(estimator.iter().flat_map(|e| e.defines.clone()));
         all
     }

@@ -130,3 +130,41 @@ fn info_knows_its_scenes() {
     let ran = workshop.run(&["info", "a.pbrt"]).fine();
     assert!(ran.stdout.contains("32 × 24"), "{}", ran.stdout);
 }
+
+/// The scene as XML, with its mesh and its curve in files beside, has the very same picture. What was read is not written over, and where nothing can
+/// be written nothing is.
+#[test]
+fn scenes_become_xml_of_the_same_picture() {
+    let workshop = Workshop::new();
+    let curve = r#"Shape "curve" "string type" "cylinder" "point3 P" [ -1 0 0  0 0 1  0.5 0 -0.5  1 0 1 ] "float width" 0.2"#;
+    workshop.write("a.pbrt", format!("{PBRT}{curve}"));
+    let converted = workshop
+        .run(&["convert-scene", "a.pbrt", "b.xml"])
+        .fine()
+        .stdout;
+    assert_eq!(converted, "b.xml and 2 files beside it\n");
+    assert_eq!(
+        workshop.files(),
+        ["a.pbrt", "b-file-0.txt", "b-mesh-0.ply", "b.xml"]
+    );
+    for (scene, out) in [("a.pbrt", "a.exr"), ("b.xml", "b.exr")] {
+        workshop
+            .run(&["render", scene, "-q", "--spp", "16", "-o", out])
+            .fine();
+    }
+    let planes = |name: &str| {
+        let image = workshop.image(name).image;
+        ["R", "G", "B"].map(|name| image.channel(name).expect("a channel").samples.to_vec())
+    };
+    assert_eq!(planes("a.exr"), planes("b.exr"));
+    for (arguments, said) in [
+        (["a.pbrt", "a.pbrt"], "the name must end in .xml"),
+        (["b.xml", "b.xml"], "is read from"),
+        (["a.pbrt", "nowhere/b.xml"], "there is no such folder"),
+        (["a.exr", "c.xml"], "is no scene"),
+    ] {
+        let [input, output] = arguments;
+        let ran = workshop.run(&["convert-scene", input, output]).refused();
+        assert!(ran.stderr.contains(said), "{}", ran.stderr);
+    }
+}
