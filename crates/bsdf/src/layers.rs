@@ -8,7 +8,7 @@
 //! parameters and their defaults are those of `LayeredBxDF` in Pharr, Jakob and Humphreys (2023), *Physically Based Rendering*,
 //! section 14.3. The slab's extinction is 1 per unit of `thickness`.
 //!
-//! No closed form exists, so what this has of f is one walk's estimate of it ([`walk`]):
+//! No closed form exists, so what this has of f is one walk's estimate of it (`walk`):
 //!
 //! - *A value* is the mean of `samples` walks from one of the two directions to the other, with random numbers from a stream
 //!   that is keyed by both of them, the place and the wavelengths. It is a pure function, and symmetric: the walk starts from the

@@ -26,7 +26,7 @@ pub struct Description {
 }
 
 impl Description {
-    /// Reads what [`SlabDescription`] does; the metal: `material` (a name, or `none` for a perfect mirror), or `eta` (0) and
+    /// Reads what [`coateddiffuse`](super::coateddiffuse) does, without the `reflectance`; the metal: `material` (a name, or `none` for a perfect mirror), or `eta` (0) and
     /// `k` (1), which are divided by `int_ior`; and its `base_alpha`, or `base_alpha_u` and `base_alpha_v` (0: smooth).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let slab = SlabDescription::from_params(params, build)?;

@@ -23,7 +23,9 @@ pub struct Description {
 }
 
 impl Description {
-    /// Reads what [`SlabDescription`] does, and the base's `reflectance` (0.5).
+    /// Reads `int_ior` (bk7) and `ext_ior` (air); the interface's `alpha`, or `alpha_u` and `alpha_v` (0: smooth); the optical
+    /// `thickness` of what is inside (0.01), its `albedo` (0) and `g` (0); of the walks their `max_depth` (10) and `samples` (1);
+    /// and the base's `reflectance` (0.5).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let kind = SpectrumKind::Reflectance;
         let reflectance = build.texture(params, "reflectance", Some(0.5), kind);
