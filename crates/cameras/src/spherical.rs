@@ -24,12 +24,12 @@ enum Mapping {
 
 /// All directions on a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sphere {
+pub struct Spherical {
     mapping: Mapping,
     window: FilmWindow,
 }
 
-impl Sphere {
+impl Spherical {
     /// Reads `mapping`.
     pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Self {
         let names = ["equirectangular", "equalarea"];
@@ -72,7 +72,7 @@ impl Sphere {
     }
 }
 
-impl Projection for Sphere {
+impl Projection for Spherical {
     const REPEATS: bool = true;
 
     #[inline]

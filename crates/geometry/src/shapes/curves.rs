@@ -1,9 +1,10 @@
-//! Curves from files, such as hair: the common part of `linearcurve` and `bsplinecurve`.
+//! Curves from files, such as hair: the common part of `linearcurve`, `bsplinecurve` and `hair`.
 //!
 //! `to_world` maps points; radii are world lengths and not scaled. Each segment is a primitive. Curves are seen from
 //! outside only, as in Mitsuba, and cannot be lights.
 
 pub mod control_points;
+mod strands;
 
 use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
@@ -58,9 +59,37 @@ pub struct Curves<S> {
 impl<S: Segment> Curves<S> {
     /// Reads `filename` and `to_world`.
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        Self::read(
+            params,
+            build,
+            "the file of control points",
+            control_points::parse,
+        )
+    }
+
+    /// Reads Mitsuba 0.6's `hair`: `filename`, `radius` (0.025 m), `angle_threshold` (1°), `reduction` (0) and `to_world`.
+    pub(crate) fn hair(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let what = "a finite number above 0";
+        let radius = params.float_where("radius", 0.025, what, |r| r > 0.0 && fits(r));
+        let what = "an angle from 0 to 90°";
+        let straight =
+            params.float_where("angle_threshold", 1.0, what, |a| (0.0..=90.0).contains(&a));
+        params.float_where("reduction", 0.0, "0: every hair is kept", |share| {
+            share == 0.0
+        });
+        Self::read(params, build, "the file of strands of hair", |bytes| {
+            strands::parse(bytes, radius, straight.to_radians())
+        })
+    }
+
+    fn read(
+        params: &Params<'_>,
+        build: &mut dyn Build,
+        what: &str,
+        parse: impl FnOnce(&[u8]) -> Result<ControlPoints, String>,
+    ) -> Option<Self> {
         let placement = Placement::from_params(params);
-        let what = "the file of control points";
-        let file = file::read(params, build, what, control_points::parse)?;
+        let file = file::read(params, build, what, parse)?;
         let name = params.string("filename").unwrap_or_default();
         if let Some(header) = &file.header {
             let message = format!(
