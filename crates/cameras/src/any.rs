@@ -2,8 +2,8 @@
 
 use crate::measured_surface::{MeasuredSurface, SensorShapes};
 use crate::{
-    Batch, Disk, Distant, FilmWindow, IrradianceMeter, Orthographic, Panoramic, Perspective,
-    RadianceMeter, Sphere, ThinLens,
+    Batch, Distant, FilmWindow, Fisheye, IrradianceMeter, Orthographic, Panoramic, Perspective,
+    RadianceMeter, Spherical, ThinLens,
 };
 use etalon_math::lane::Lane;
 use etalon_params::{Class, Params, plugins};
@@ -82,9 +82,9 @@ cameras! {
     /// Parallel rays.
     Orthographic(Orthographic) { "orthographic" => |params, window, shutter, _| Orthographic::from_params(params, window, shutter) }
     /// All directions.
-    Spherical(Panoramic<Sphere>) { "spherical" => |params, window, shutter, _| Panoramic::from_params(params, window, shutter, Sphere::from_params) }
+    Spherical(Panoramic<Spherical>) { "spherical" => |params, window, shutter, _| Panoramic::from_params(params, window, shutter, Spherical::from_params) }
     /// A cone of directions.
-    Fisheye(Panoramic<Disk>) { "fisheye" => |params, window, shutter, _| Panoramic::from_params(params, window, shutter, Disk::from_params) }
+    Fisheye(Panoramic<Fisheye>) { "fisheye" => |params, window, shutter, _| Panoramic::from_params(params, window, shutter, Fisheye::from_params) }
     /// One ray.
     RadianceMeter(RadianceMeter) { "radiancemeter" => |params, window, shutter, _| RadianceMeter::from_params(params, window, shutter) }
     /// The irradiance on a shape.

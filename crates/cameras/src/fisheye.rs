@@ -61,7 +61,7 @@ impl Mapping {
 
 /// A cone of directions on a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Disk {
+pub struct Fisheye {
     mapping: Mapping,
     window: FilmWindow,
     centre: Vec2,
@@ -71,7 +71,7 @@ pub struct Disk {
     edge: f32,
 }
 
-impl Disk {
+impl Fisheye {
     /// Reads `fov`, `fov_axis` and `mapping`.
     pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Self {
         let mapping = Mapping::named(params.choice("mapping", "equidistant", &Mapping::NAMES));
@@ -98,7 +98,7 @@ impl Disk {
     }
 }
 
-impl Projection for Disk {
+impl Projection for Fisheye {
     const REPEATS: bool = false;
 
     #[inline]

@@ -31,7 +31,7 @@ pub use any::AnyCamera;
 pub use batch::Batch;
 pub use clip::ClipRange;
 pub use distant::Distant;
-pub use fisheye::Disk;
+pub use fisheye::Fisheye;
 pub use image_plane::ImagePlane;
 pub use irradiance_meter::IrradianceMeter;
 pub use lens::Lens;
@@ -41,7 +41,7 @@ pub use panoramic::{Panoramic, Projection};
 pub use perspective::Perspective;
 pub use pose::Pose;
 pub use radiance_meter::RadianceMeter;
-pub use spherical::Sphere;
+pub use spherical::Spherical;
 pub use thin_lens::ThinLens;
 pub use window::FilmWindow;
 

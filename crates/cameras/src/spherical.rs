@@ -25,12 +25,12 @@ enum Mapping {
 
 /// All directions on a film.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sphere {
+pub struct Spherical {
     mapping: Mapping,
     window: FilmWindow,
 }
 
-impl Sphere {
+impl Spherical {
     /// Reads `mapping`.
     pub fn from_params(params: &Params<'_>, window: FilmWindow) -> Self {
         let names = ["equirectangular", "equalarea"];
@@ -73,7 +73,7 @@ impl Sphere {
     }
 }
 
-impl Projection for Sphere {
+impl Projection for Spherical {
     const REPEATS: bool = true;
 
     #[inline]

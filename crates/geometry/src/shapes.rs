@@ -134,7 +134,7 @@ shapes! {
     /// A curve moved along an axis.
     Extrusion(Placed<Extrusion>) { "extrusion" => |params, _| Extrusion::from_params(params), }
     /// Polylines of balls.
-    LinearCurve(Curves<RoundCone>) { "linearcurve" => |params, build| Curves::from_params(params, build), }
+    LinearCurve(Curves<RoundCone>) { "linearcurve" => |params, build| Curves::from_params(params, build), "hair" => |params, build| Curves::hair(params, build), }
     /// Splines of circles.
     SplineCurve(Curves<RoundSpline>) {
         "bsplinecurve" => |params, build| Curves::from_params(params, build),

@@ -6,7 +6,7 @@
 //!
 //! with s the `scale` and I(λ) the spectrum `intensity`, by default daylight of luminance 1.
 //!
-//! - **IES** (LM-63, see `ies.rs`): T is the luminous intensity in candela, with all factors of the file, over 683 lm/W. With the default intensity
+//! - **IES** (LM-63, see `ies_profile.rs`): T is the luminous intensity in candela, with all factors of the file, over 683 lm/W. With the default intensity
 //!   the luminance of a picture, Y, is that of the real luminaire in cd/m² over 683; `scale` 683 has it in cd/m². T is bilinear in the angles. The nadir
 //!   of the file, vertical angle 0, is +z of the light's space, as that of a `spot`; horizontal angle 0 is +x, and 90° is −y, so that
 //!   a light that is turned about x to shine down has them counterclockwise, seen from above.
@@ -14,7 +14,7 @@
 //!   `equirectangular` has latitude and longitude as an `envmap`, and is bilinear in them.
 
 use crate::angular_table::AngularTable;
-use crate::ies::{self, IesProfile};
+use crate::ies_profile::{IesProfile, is_ies};
 use crate::light::{anywhere, extent_of_cone};
 use crate::light_model::LightModel;
 use crate::pose::{Pose, emit_from_point, extent_of_way, sample_point};
@@ -120,7 +120,7 @@ fn decode(bytes: &[u8], filename: &str) -> Result<File, String> {
     let named = path
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("ies"));
-    if named || ies::is_ies(bytes) {
+    if named || is_ies(bytes) {
         return IesProfile::parse(bytes).map(File::Luminaire);
     }
     let image = raster_file::decode(bytes, path).map_err(|error| error.to_string())?;

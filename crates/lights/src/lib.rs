@@ -22,7 +22,7 @@ pub mod environment;
 pub mod extent;
 pub mod few;
 mod goniometric;
-mod ies;
+mod ies_profile;
 pub mod light;
 mod light_model;
 pub mod light_sampler;

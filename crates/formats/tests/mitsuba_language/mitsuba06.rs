@@ -38,6 +38,20 @@ fn parameters_of_mitsuba_06_have_todays_names() {
             ("albedo", 0.15),
         ],
     );
+    // Alone they are what is left of it without the other.
+    is(
+        "<emitter type='sky'><float name='scale' value='10'/><float name='turbidity' value='4'/></emitter>",
+        &[
+            ("turbidity", 4.0),
+            ("sun_scale", 0.0),
+            ("sky_scale", 10.0),
+            ("albedo", 0.15),
+        ],
+    );
+    is(
+        "<emitter type='sun'><float name='scale' value='10'/></emitter>",
+        &[("sky_scale", 0.0), ("sun_scale", 10.0), ("albedo", 0.15)],
+    );
     is(
         "<integrator type='sppm'><integer name='photonCount' value='9'/>
          <float name='initialRadius' value='0'/></integrator>",

@@ -1,9 +1,10 @@
-//! Curves from files, such as hair: the common part of `linearcurve`, `bsplinecurve` and `beziercurve`.
+//! Curves from files, such as hair: the common part of `linearcurve`, `bsplinecurve`, `beziercurve` and `hair`.
 //!
 //! `to_world` maps points; radii are world lengths and not scaled. Each segment is a primitive. Curves are seen from
 //! outside only, as in Mitsuba, and cannot be lights.
 
 pub mod control_points;
+mod strands;
 
 use crate::local_interaction::LocalInteraction;
 use crate::placement::Placement;
@@ -49,6 +50,9 @@ pub trait Segment: Sized {
     fn bounds(&self) -> [DVec3; 2];
 }
 
+/// After how many control points a segment begins, and how it is made of those that it has.
+type SegmentRule<S> = (usize, fn(&[ControlPoint]) -> S);
+
 /// Curves of one kind.
 #[derive(Clone, Debug)]
 pub struct Curves<S> {
@@ -65,11 +69,36 @@ impl<S: Segment> Curves<S> {
     pub(crate) fn in_steps(
         params: &Params<'_>,
         build: &mut dyn Build,
-        rule: (usize, fn(&[ControlPoint]) -> S),
+        rule: SegmentRule<S>,
+    ) -> Option<Self> {
+        let what = "the file of control points";
+        Self::read(params, build, (what, rule), control_points::parse)
+    }
+
+    /// Reads Mitsuba 0.6's `hair`: `filename`, `radius` (0.025 m), `angle_threshold` (1°), `reduction` (0) and `to_world`.
+    pub(crate) fn hair(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
+        let what = "a finite number above 0";
+        let radius = params.float_where("radius", 0.025, what, |r| r > 0.0 && fits(r));
+        let what = "an angle from 0 to 90°";
+        let straight =
+            params.float_where("angle_threshold", 1.0, what, |a| (0.0..=90.0).contains(&a));
+        params.float_where("reduction", 0.0, "0: every hair is kept", |share| {
+            share == 0.0
+        });
+        let file = ("the file of strands of hair", (1, S::new as fn(&_) -> S));
+        Self::read(params, build, file, |bytes| {
+            strands::parse(bytes, radius, straight.to_radians())
+        })
+    }
+
+    fn read(
+        params: &Params<'_>,
+        build: &mut dyn Build,
+        (what, rule): (&str, SegmentRule<S>),
+        parse: impl FnOnce(&[u8]) -> Result<ControlPoints, String>,
     ) -> Option<Self> {
         let placement = Placement::from_params(params);
-        let what = "the file of control points";
-        let file = file::read(params, build, what, control_points::parse)?;
+        let file = file::read(params, build, what, parse)?;
         let name = params.string("filename").unwrap_or_default();
         if let Some(header) = &file.header {
             let message = format!(
@@ -88,7 +117,7 @@ impl<S: Segment> Curves<S> {
     fn new(
         file: &ControlPoints,
         placement: &Placement,
-        (step, segment): (usize, fn(&[ControlPoint]) -> S),
+        (step, segment): SegmentRule<S>,
     ) -> Result<Self, String> {
         let mut segments = Vec::new();
         for (points, end) in &file.strands {

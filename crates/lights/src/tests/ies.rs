@@ -1,6 +1,6 @@
 //! Photometric files as they are written, well and badly.
 
-use crate::ies::{IesProfile, is_ies};
+use crate::ies_profile::{IesProfile, is_ies};
 
 /// Of 1991: numbers across lines as they come, commas, a multiplier, ballast factors, quarter symmetry.
 const QUARTER: &str = "IESNA91\r\n[TEST] 1\r\n[MANUFAC] nobody\r\nTILT=NONE\r\n1 1000 2.0 3 2 1 2 0.1,0.1,0\r\n0.5 0.8 60\r\n0 45\r\n90\r\n0 90\r\n100 80 0\r\n100,60,0\r\n";
