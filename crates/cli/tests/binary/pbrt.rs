@@ -154,7 +154,7 @@ fn scenes_become_xml_of_the_same_picture() {
     }
     let planes = |name: &str| {
         let image = workshop.image(name).image;
-        ["R", "G", "B"].map(|name| image.channel(name).expect("a channel").samples.to_vec())
+        ["R", "G", "B"].map(|name| image.channel(name).expect("a channel").to_vec())
     };
     assert_eq!(planes("a.exr"), planes("b.exr"));
     for (arguments, said) in [
