@@ -1,6 +1,7 @@
 //! The command line.
 
 mod conform;
+mod convert;
 mod denoise;
 mod estimators;
 mod farm;
@@ -12,6 +13,7 @@ mod replay_address;
 mod replicates;
 
 pub use conform::{AskedArgs, ConformArgs, ConformCommand, ConformExportArgs, ConformRunArgs};
+pub use convert::{ConvertArgs, ConvertSceneArgs};
 pub use denoise::DenoiseArgs;
 pub use estimators::EstimatorsArgs;
 pub use farm::{FarmArgs, PathMap};
@@ -26,7 +28,7 @@ use replay_address::parse_replay;
 
 use crate::arg_values::{
     parse_accelerator, parse_define, parse_error, parse_light_chooser, parse_probability,
-    parse_range, parse_rate, parse_seconds, parse_seed, whole,
+    parse_rate, parse_seconds, parse_seed, whole,
 };
 use crate::frames::{Frame, FrameRange};
 use crate::outputs::Outputs;
@@ -364,34 +366,6 @@ pub struct CompareArgs {
     #[arg(long, value_name = "ALPHA", default_value_t = 0.001, value_parser = parse_probability,
         allow_negative_numbers = true)]
     pub alpha: f64,
-}
-
-/// Arguments of `convert`.
-#[derive(Debug, Args, Clone)]
-pub struct ConvertArgs {
-    /// The image to read (EXR, HDR, PFM, PNG, JPEG, BMP, TGA, PNM).
-    pub input: PathBuf,
-    /// The picture to write (.png, .hdr, .pfm).
-    pub output: PathBuf,
-    /// How it is shown.
-    #[command(flatten)]
-    pub shown: ShownArgs,
-    /// Show the channels PREFIX.R, PREFIX.G, PREFIX.B (or X, Y, Z), or the one channel PREFIX,
-    /// instead of R, G, B.
-    #[arg(long, value_name = "PREFIX")]
-    pub channels: Option<String>,
-    /// Show A as black and B as white, in proportion, as depths, normals and errors want it: 0..10 or -1..1.
-    #[arg(long, value_name = "A..B", value_parser = parse_range, allow_hyphen_values = true, conflicts_with_all = ["exposure", "view"])]
-    pub range: Option<[f64; 2]>,
-}
-
-/// Arguments of `convert-scene`.
-#[derive(Debug, Args, Clone)]
-pub struct ConvertSceneArgs {
-    /// The scene to read (.pbrt, .pbrt.gz, .xml).
-    pub input: PathBuf,
-    /// The scene to write (.xml).
-    pub output: PathBuf,
 }
 
 /// Arguments of `movie`.

@@ -33,6 +33,7 @@ mod options;
 mod picture;
 mod placement;
 mod ply_mesh;
+mod profile_point;
 mod quadrics;
 mod roughness;
 mod sampler;
@@ -44,7 +45,6 @@ mod subsurface;
 mod tests;
 mod texture_kinds;
 mod textures;
-mod turned_surfaces;
 
 use super::parameters::Parameters;
 use super::scene::{Entity, Scene};

@@ -5,14 +5,14 @@
 //! the same side. Of Etalon's shapes, the sphere is turned by a mirroring `to_world` by itself, as Mitsuba's is; disk and cylinder are not.
 //!
 //! Texture coordinates differ: v of Mitsuba's sphere runs from +z down, pbrt's from −z up. Where they matter, the sphere is mirrored along z, and
-//! its normals are turned back. Those of the disk are exchanged: where they matter, it is a mesh (`turned_surfaces`), as all parts of these shapes are.
+//! its normals are turned back. Those of the disk are exchanged: where they matter, it is a mesh (`profile_point`), as all parts of these shapes are.
 
 use super::super::parameters::Parameters;
 use super::Mapper;
 use super::node::vector;
 use super::placement::mirrors;
+use super::profile_point::{self, ProfilePoint};
 use super::shapes::{Form, Wanted};
-use super::turned_surfaces::{self, ProfilePoint};
 use etalon_math::float64;
 use etalon_params::{DMat4, DVec3, Value};
 use glam::DVec2;
@@ -27,7 +27,7 @@ impl<'a> Mapper<'a> {
         let angle = full_angle(params);
         if angle < TAU || low > -radius || high < radius {
             let [from, to] = [low, high].map(|z| float64::acos(z / radius));
-            let count = turned_surfaces::pieces(from - to);
+            let count = profile_point::pieces(from - to);
             let point = |k: usize| {
                 let v = k as f64 / count as f64;
                 let (sin, cos) = float64::sin_cos(from + (to - from) * v);
