@@ -1,6 +1,7 @@
 //! Curves from files against dense sampling: of the balls of a polyline, and of the circles of a spline.
 
-use crate::description::{curve_file, good_curves, make};
+use crate::curve_files::{curve_file, good_curves};
+use crate::description::make;
 use crate::things::{Random, geometry_of};
 use etalon_geometry::Shape;
 use etalon_params::Value;

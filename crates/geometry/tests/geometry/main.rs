@@ -3,6 +3,7 @@
 mod accelerators;
 mod bilinear;
 mod commotion;
+mod curve_files;
 mod curves;
 mod deformed_lamps;
 mod description;
