@@ -3,6 +3,7 @@
 use crate::SearchPath;
 use etalon_params::{Diagnostic, Node, Severity, Sources, Span};
 use etalon_transport::MeshData;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -17,6 +18,8 @@ pub struct ReadOptions {
     pub time: f64,
     /// Further folders to look for files in, after the scene's own.
     pub search: Vec<PathBuf>,
+    /// A picture of the surroundings, which light a scene of glTF (`--environment FILE`); other scenes have their own.
+    pub environment: Option<PathBuf>,
 }
 
 /// A file that the scene description was read from.
@@ -42,11 +45,18 @@ pub struct Document {
     pub parameters: Vec<(String, String)>,
     /// Meshes that stand in the scene file itself: a `ply` has [`mesh_name`] for the name of its file.
     pub meshes: Vec<Arc<MeshData>>,
+    /// Files of pictures that stand in the scene file itself, by number: a `bitmap` has [`image_name`] for the name of its file.
+    pub images: BTreeMap<usize, Arc<Vec<u8>>>,
 }
 
 /// The name of a mesh in [`Document::meshes`], for shapes and messages.
 pub fn mesh_name(index: usize) -> String {
     format!("mesh {index} of the scene file")
+}
+
+/// The name of a picture in [`Document::images`], for textures and messages.
+pub fn image_name(index: usize) -> String {
+    format!("image {index} of the scene file")
 }
 
 /// What came of reading a scene.

@@ -1,6 +1,6 @@
 //! The files of a scene, looked up along its search path.
 
-use crate::document::{Document, mesh_name};
+use crate::document::{Document, image_name, mesh_name};
 use crate::{SearchPath, gzip, obj, open_bounded, ply, read_bounded, serialized};
 use etalon_transport::{AssetError, Assets, MeshData, MeshFormat};
 use std::collections::{BTreeSet, HashMap};
@@ -27,6 +27,8 @@ pub struct FileAssets {
     limit: u64,
     /// Those that are no files: [`Document::meshes`], by their names.
     meshes: HashMap<String, Arc<MeshData>>,
+    /// The same of [`Document::images`].
+    images: HashMap<String, Arc<Vec<u8>>>,
     state: Mutex<State>,
 }
 
@@ -45,16 +47,20 @@ impl FileAssets {
             search,
             limit: MOST_BYTES,
             meshes: HashMap::new(),
+            images: HashMap::new(),
             state: Mutex::default(),
         }
     }
 
-    /// What a scene needs: files along its search path, and the meshes in its description.
+    /// What a scene needs: files along its search path, and the meshes and pictures in its description.
     pub fn of(document: &Document) -> Self {
         let meshes = document.meshes.iter().enumerate();
         let meshes = meshes.map(|(index, mesh)| (mesh_name(index), Arc::clone(mesh)));
+        let images = document.images.iter();
+        let images = images.map(|(index, bytes)| (image_name(*index), Arc::clone(bytes)));
         Self {
             meshes: meshes.collect(),
+            images: images.collect(),
             ..Self::new(document.search.clone())
         }
     }
@@ -117,6 +123,9 @@ impl FileAssets {
 
 impl Assets for FileAssets {
     fn bytes(&self, name: &str) -> Result<Arc<Vec<u8>>, AssetError> {
+        if let Some(bytes) = self.images.get(name) {
+            return Ok(Arc::clone(bytes));
+        }
         let path = self.find(name)?;
         if let Some(bytes) = self.state().shared.get(&path).and_then(Weak::upgrade) {
             return Ok(bytes);

@@ -34,6 +34,7 @@ mod version;
 use crate::SearchPath;
 use crate::document::{Document, ReadOptions, ReadOutcome};
 use reader::Reader;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 pub use upgrade::underscored;
 
@@ -80,5 +81,6 @@ fn document(reader: &mut Reader<'_>, path: &Path) -> Option<Document> {
         files: std::mem::take(&mut reader.files),
         parameters: reader.parameters.values(),
         meshes: Vec::new(),
+        images: BTreeMap::new(),
     })
 }

@@ -48,7 +48,7 @@ use etalon_params::{Class, Diagnostic, Diagnostics, FileId, Node, Span};
 use etalon_transport::MeshData;
 use materials::Surface;
 use node::{Draft, Given};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 /// A scene whose entities are becoming nodes.
@@ -86,6 +86,7 @@ pub(crate) fn document(
         files: mapper.files,
         parameters: Vec::new(),
         meshes: mapper.meshes,
+        images: BTreeMap::new(),
     }
 }
 
