@@ -56,7 +56,7 @@ pub struct Cli {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Render a scene (Mitsuba 3 XML or pbrt-v4) to an EXR with standard errors.
+    /// Render a scene (Mitsuba 3 XML, pbrt-v4 or glTF 2.0) to an EXR with standard errors.
     #[command(after_help = "\
 Ctrl-C, SIGTERM and SIGHUP stop within two seconds. An image is written of the replicates that are
 finished; if none is, of the samples that there are, without standard errors. With `--resume` nothing
@@ -232,7 +232,7 @@ Examples:
 #[command(group = clap::ArgGroup::new("wanted").args(["output", "replay"]))]
 #[command(group = clap::ArgGroup::new("piloted").multiple(true).args(["error", "adaptive"]))]
 pub struct RenderArgs {
-    /// The scene (Mitsuba 3 XML or pbrt-v4).
+    /// The scene (Mitsuba 3 XML, pbrt-v4 or glTF 2.0).
     pub scene: PathBuf,
     /// The image to write: .exr; .png writes a picture beside an .exr; .hdr and .pfm hold no
     /// standard errors [default: the scene's name with .exr, in this folder].
@@ -328,6 +328,9 @@ pub struct RenderArgs {
     /// Folder with further data (`NAME.eta.spd` of metals, such as Mitsuba's data/ior).
     #[arg(long, value_name = "DIR")]
     pub data: Vec<PathBuf>,
+    /// A picture of what surrounds a scene of glTF, which has no place for it.
+    #[arg(long, value_name = "FILE.exr")]
+    pub environment: Option<PathBuf>,
     /// Say nothing but errors.
     #[arg(short, long)]
     pub quiet: bool,

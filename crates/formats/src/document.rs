@@ -3,6 +3,7 @@
 use crate::SearchPath;
 use etalon_params::{Diagnostic, Node, Severity, Sources, Span};
 use etalon_transport::MeshData;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -17,6 +18,8 @@ pub struct ReadOptions {
     pub time: f64,
     /// Further folders to look for files in, after the scene's own.
     pub search: Vec<PathBuf>,
+    /// A picture of the surroundings, which light a scene of glTF (`--environment FILE`); other scenes have their own.
+    pub environment: Option<PathBuf>,
 }
 
 /// A file that the scene description was read from.
@@ -42,8 +45,8 @@ pub struct Document {
     pub parameters: Vec<(String, String)>,
     /// Meshes that stand in the scene file itself: a `ply` has [`mesh_name`] for the name of its file.
     pub meshes: Vec<Arc<MeshData>>,
-    /// Contents of files that stand in the scene file itself: they are asked for by [`embedded_name`].
-    pub embedded: Vec<Arc<Vec<u8>>>,
+    /// Files that stand in the scene file itself (pictures, curves, grids), by number: they are asked for by [`embedded_name`].
+    pub embedded: BTreeMap<usize, Arc<Vec<u8>>>,
 }
 
 /// The name of a mesh in [`Document::meshes`], for shapes and messages.

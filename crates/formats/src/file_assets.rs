@@ -56,8 +56,8 @@ impl FileAssets {
     pub fn of(document: &Document) -> Self {
         let meshes = document.meshes.iter().enumerate();
         let meshes = meshes.map(|(index, mesh)| (mesh_name(index), Arc::clone(mesh)));
-        let embedded = document.embedded.iter().enumerate();
-        let embedded = embedded.map(|(index, bytes)| (embedded_name(index), Arc::clone(bytes)));
+        let embedded = document.embedded.iter();
+        let embedded = embedded.map(|(index, bytes)| (embedded_name(*index), Arc::clone(bytes)));
         Self {
             meshes: meshes.collect(),
             embedded: embedded.collect(),

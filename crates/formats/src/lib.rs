@@ -1,11 +1,14 @@
-//! Files in: Mitsuba XML, pbrt-v4, OBJ, PLY, Mitsuba's serialized meshes.
+//! Files in: Mitsuba XML, pbrt-v4, glTF 2.0, OBJ, PLY, Mitsuba's serialized meshes.
 //!
-//! [`mitsuba`] turns a scene file into the description tree, [`pbrt`] does the same with one of pbrt; [`FileAssets`] finds and reads the
+//! [`mitsuba`] turns a scene file into the description tree, [`pbrt`] and `gltf` do the same with those of pbrt and glTF; [`FileAssets`] finds and reads the
 //! files that a scene refers to. Nothing here trusts a file: sizes are checked before memory is
 //! asked for, and a broken file is a message, never a panic.
 
 mod document;
+mod draft;
 mod file_assets;
+#[cfg(feature = "gltf")]
+pub mod gltf;
 mod gzip;
 mod mesh_error;
 pub mod mitsuba;
@@ -14,6 +17,8 @@ pub mod obj;
 pub mod pbrt;
 pub mod ply;
 mod polygon;
+#[cfg(test)]
+mod same_tree;
 mod search_path;
 pub mod serialized;
 mod unused;
@@ -24,17 +29,22 @@ pub use mesh_error::{MeshError, Place};
 pub use search_path::SearchPath;
 
 use etalon_images::lfs_pointer;
+use etalon_params::Diagnostic;
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
 /// Whether the name of a file is that of a scene.
 pub fn is_scene(path: &Path) -> bool {
-    is_pbrt(path) || has_ending(path, &[".xml"])
+    is_pbrt(path) || is_gltf(path) || has_ending(path, &[".xml"])
 }
 
 fn is_pbrt(path: &Path) -> bool {
     has_ending(path, &[".pbrt", ".pbrt.gz"])
+}
+
+fn is_gltf(path: &Path) -> bool {
+    has_ending(path, &[".gltf", ".glb"])
 }
 
 fn has_ending(path: &Path, endings: &[&str]) -> bool {
@@ -42,11 +52,41 @@ fn has_ending(path: &Path, endings: &[&str]) -> bool {
     endings.iter().any(|ending| name.ends_with(ending))
 }
 
-/// Reads a scene in the language that the name of its file tells: pbrt's for `.pbrt` and `.pbrt.gz`, else Mitsuba's XML.
+/// Reads a scene in the language that the name of its file tells: pbrt's for `.pbrt` and `.pbrt.gz`, glTF for `.gltf` and `.glb`, else Mitsuba's XML.
 pub fn read(path: &Path, options: &ReadOptions) -> ReadOutcome {
-    match is_pbrt(path) {
+    if is_gltf(path) {
+        return read_gltf(path, options);
+    }
+    let mut outcome = match is_pbrt(path) {
         true => pbrt::read(path, options),
         false => mitsuba::read(path, options),
+    };
+    if let Some(environment) = &options.environment {
+        let message = format!(
+            "the surroundings `{}` are for scenes of glTF: this one says itself what lights it",
+            environment.display()
+        );
+        outcome.diagnostics.push(Diagnostic::error_nowhere(message));
+    }
+    outcome
+}
+
+#[cfg(feature = "gltf")]
+fn read_gltf(path: &Path, options: &ReadOptions) -> ReadOutcome {
+    gltf::read(path, options)
+}
+
+#[cfg(not(feature = "gltf"))]
+fn read_gltf(path: &Path, _: &ReadOptions) -> ReadOutcome {
+    let message = format!(
+        "`{}`: this program was built without the feature `gltf`",
+        path.display()
+    );
+    ReadOutcome {
+        sources: Default::default(),
+        diagnostics: vec![Diagnostic::error_nowhere(message)],
+        document: None,
+        stand_ins: Vec::new(),
     }
 }
 

@@ -13,6 +13,8 @@ pub struct LoadOptions {
     pub integrator: Option<String>,
     /// Further folders with data.
     pub data: Vec<PathBuf>,
+    /// A picture of the surroundings of a scene that has none of its own (of glTF).
+    pub environment: Option<PathBuf>,
     /// How points choose the light that they ask, if not as the scene says.
     pub light_chooser: Option<LightSamplerKind>,
     /// How surfaces are looked up.

@@ -34,6 +34,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
             defines: options.defines.clone(),
             integrator: options.integrator.clone(),
             search: options.data.clone(),
+            environment: options.environment.clone(),
             time: options.time,
         },
     );

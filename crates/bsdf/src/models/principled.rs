@@ -4,6 +4,7 @@
 //!
 //! ```text
 //! base          (1 − m)(1 − t) · f of [`crate::models::disney`], with the sheen's factor (1 − m)
+//!               or, of `diffuse_model` `lambert`, colour/π (1 − F) in place of lerp(f_d, f_ss, flatness), as glTF 2.0 has it (appendix B.3.5)
 //! reflected     F_p D G / (4 cos θo cos θi)
 //!   front:      F_p = (1 − m)(1 − spec_tint) F + m S(colour) + (1 − m) spec_tint S(R0 · tint)
 //!   back:       F_p = b F
@@ -39,6 +40,7 @@ pub const EXEMPLARS: &[&str] = &[
     "principled base_color=u:0.9 spec_trans=f:0.9 roughness=f:0.6 eta=f:1.4",
     "principled flatness=f:0.8 roughness=f:0.7 specular=f:0.2",
     "principled metallic=f:1 roughness=f:0.5 base_color=t:400:0.9,700:0.4",
+    "principled diffuse_model=s:lambert roughness=f:0.8 metallic=f:0.3 sheen=f:0.2",
 ];
 
 inputs! {
@@ -77,12 +79,13 @@ pub struct Description {
     inputs: Inputs,
     eta: f32,
     transmits: bool,
+    lambert: bool,
     /// Sampling rates of the base, the main interface and the clear coat.
     rates: Vec3,
 }
 
 impl Description {
-    /// Reads [`Inputs`], `eta` or `specular` (0.5), and the rates `diffuse_reflectance_sampling_rate`,
+    /// Reads [`Inputs`], `eta` or `specular` (0.5), `diffuse_model` (burley), and the rates `diffuse_reflectance_sampling_rate`,
     /// `main_specular_sampling_rate` and `clearcoat_sampling_rate` (1).
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let rate = |name: &str| sampling_rate(params, name);
@@ -115,6 +118,7 @@ impl Description {
                 eta as f32
             },
             transmits,
+            lambert: params.choice("diffuse_model", "burley", &["burley", "lambert"]) == "lambert",
             rates,
         })
     }
@@ -148,6 +152,7 @@ impl Description {
             tinted: dielectric * at.spec_tint,
             roughness: at.roughness,
             flatness: at.flatness,
+            lambert: f32::from(u8::from(self.lambert)),
             sheen: dielectric * at.sheen,
             sheen_tint: at.sheen_tint,
             clearcoat: at.clearcoat,
@@ -184,6 +189,7 @@ impl Description {
             tinted: number(|one| one.tinted),
             roughness: number(|one| one.roughness),
             flatness: number(|one| one.flatness),
+            lambert: number(|one| one.lambert),
             sheen: number(|one| one.sheen),
             sheen_tint: number(|one| one.sheen_tint),
             clearcoat: number(|one| one.clearcoat),

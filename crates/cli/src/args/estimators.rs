@@ -8,7 +8,7 @@ use std::path::PathBuf;
 /// Arguments of `estimators`.
 #[derive(Debug, Args, Clone)]
 pub struct EstimatorsArgs {
-    /// The scene (Mitsuba 3 XML or pbrt-v4).
+    /// The scene (Mitsuba 3 XML, pbrt-v4 or glTF 2.0).
     pub scene: PathBuf,
     /// Integrators, each in place of the scene's innermost one [default: the scene's].
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
@@ -61,6 +61,9 @@ pub struct EstimatorsArgs {
     /// Folder with further data (`NAME.eta.spd` of metals, such as Mitsuba's data/ior).
     #[arg(long, value_name = "DIR")]
     pub data: Vec<PathBuf>,
+    /// A picture of what surrounds a scene of glTF, which has no place for it.
+    #[arg(long, value_name = "FILE.exr")]
+    pub environment: Option<PathBuf>,
     /// Say nothing but the result and errors.
     #[arg(short, long)]
     pub quiet: bool,

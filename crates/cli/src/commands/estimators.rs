@@ -80,6 +80,7 @@ fn measure(args: &EstimatorsArgs, guard: &mut WriteGuard) -> Result<Findings, Fa
         load: LoadOptions {
             defines: args.define.clone(),
             data: args.data.clone(),
+            environment: args.environment.clone(),
             ..LoadOptions::default()
         },
         integrators: args.integrators.clone(),

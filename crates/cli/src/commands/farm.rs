@@ -23,6 +23,7 @@ pub fn run(args: &FarmArgs) -> ExitCode {
             defines: render.define.clone(),
             integrator: render.integrator.clone(),
             data: render.data.clone(),
+            environment: render.environment.clone(),
             light_chooser: render.light_chooser,
             accelerator: render.accelerator.unwrap_or_default(),
             time: 0.0,
@@ -117,8 +118,10 @@ fn write(args: &FarmArgs, work: Work, inputs: &[PathBuf]) -> Result<Job, String>
     let data: Result<Vec<PathBuf>, String> = (render.data.iter())
         .map(|path| absolute(path).map(seen))
         .collect();
+    let environment = render.environment.as_deref().map(absolute).transpose()?;
     let render = RenderArgs {
         data: data?,
+        environment: environment.map(seen),
         ..render.clone()
     };
     let mut words = options::of(&render);

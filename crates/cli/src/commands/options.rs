@@ -22,7 +22,7 @@ pub(super) fn of_the_picture(args: &RenderArgs) -> Vec<String> {
     words
 }
 
-/// Values of scene parameters, and folders with data.
+/// Values of scene parameters, folders with data, and the surroundings.
 pub(super) fn of_the_scene(args: &RenderArgs) -> Vec<String> {
     let defines = args.define.iter();
     let defines =
@@ -30,7 +30,14 @@ pub(super) fn of_the_scene(args: &RenderArgs) -> Vec<String> {
     let data = args.data.iter();
     let data =
         data.map(|folder| format!("--data {}", quoting::shell(&folder.display().to_string())));
-    defines.chain(data).collect()
+    let around = args.environment.iter();
+    let around = around.map(|file| {
+        format!(
+            "--environment {}",
+            quoting::shell(&file.display().to_string())
+        )
+    });
+    defines.chain(data).chain(around).collect()
 }
 
 /// All but the scene, the output, frames, and what only one machine can have.

@@ -58,6 +58,7 @@ fn run_here(args: &RenderArgs, onlookers: &Onlookers) -> ExitCode {
             defines: args.define.clone(),
             integrator: args.integrator.clone(),
             data: args.data.clone(),
+            environment: args.environment.clone(),
             light_chooser: args.light_chooser,
             accelerator: args.accelerator.unwrap_or_default(),
             time: args.frame.map_or(0.0, |frame| frame.time),

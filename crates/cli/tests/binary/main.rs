@@ -22,6 +22,7 @@ mod farm;
 mod field_scenes;
 mod frames;
 mod framing;
+mod gltf;
 mod info;
 mod integrators;
 mod interrupt;

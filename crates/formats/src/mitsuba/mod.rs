@@ -35,6 +35,7 @@ mod write;
 use crate::SearchPath;
 use crate::document::{Document, ReadOptions, ReadOutcome};
 use reader::Reader;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 pub use upgrade::underscored;
 pub use write::{WrittenScene, write};
@@ -82,6 +83,6 @@ fn document(reader: &mut Reader<'_>, path: &Path) -> Option<Document> {
         files: std::mem::take(&mut reader.files),
         parameters: reader.parameters.values(),
         meshes: Vec::new(),
-        embedded: Vec::new(),
+        embedded: BTreeMap::new(),
     })
 }

@@ -31,7 +31,7 @@ pub fn write(document: &Document, stem: &str, place: &dyn Fn(&str) -> String) ->
         names.insert(mesh_name(index), name.clone());
         files.push((name, ply::write(mesh)));
     }
-    for (index, bytes) in document.embedded.iter().enumerate() {
+    for (&index, bytes) in &document.embedded {
         let name = format!("{stem}-file-{index}.{}", ending(bytes));
         names.insert(embedded_name(index), name.clone());
         files.push((name, bytes.to_vec()));

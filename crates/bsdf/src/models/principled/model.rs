@@ -31,6 +31,8 @@ pub struct Principled<F: Lane = f32> {
     pub(super) tinted: F,
     pub(super) roughness: F,
     pub(super) flatness: F,
+    /// 1 for Lambert's diffuse base, 0 for Burley's.
+    pub(super) lambert: F,
     /// (1 − m) sheen.
     pub(super) sheen: F,
     pub(super) sheen_tint: F,
@@ -55,6 +57,13 @@ impl<F: Lane> Principled<F> {
             roughness: self.roughness,
             flatness: self.flatness,
         }
+    }
+
+    /// The base by Lambert's rule, below an interface that reflects `fresnel`, for a cosine to the half-way normal.
+    #[inline(always)]
+    fn lambert_base(&self, wi: F::Vector, cos: F, fresnel: F) -> F::Spectrum {
+        let DisneyBase { colour, sheen, .. } = self.base();
+        (colour * ((F::ONE - fresnel) * FRAC_1_PI) + sheen * disney::schlick(cos)) * wi.z()
     }
 
     /// F_p, for a cosine to the half-way normal and the dielectric's reflectance.
@@ -120,9 +129,13 @@ impl<F: Lane> Principled<F> {
     /// Two directions in front.
     #[inline(always)]
     fn front(&self, wo: F::Vector, wi: F::Vector) -> (F::Spectrum, F::Spectrum) {
-        let base = self.base().eval(wo, wi);
         let (has_normal, m, cos) = half_vector::<F>(wo, wi);
         let fresnel = fresnel::dielectric(cos, self.eta).0;
+        let base = branch!(
+            self.lambert.gt(F::ZERO),
+            self.lambert_base(wi, cos, fresnel),
+            self.base().eval(wo, wi)
+        );
         let microfacet = self.microfacet();
         let d = microfacet.d(m);
         let shadowing = microfacet.g1(wo, m) * microfacet.g1(wi, m);

@@ -25,7 +25,7 @@ pub fn run(args: &InfoArgs) -> ExitCode {
             Err(error) => fail(error),
         },
         _ if args.json => fail(
-            "`--json` tells of scenes (.xml, .pbrt), images (.exr) and checkpoints (.checkpoint)",
+            "`--json` tells of scenes (.xml, .pbrt, .gltf, .glb), images (.exr) and checkpoints (.checkpoint)",
         ),
         _ => match contents(file) {
             Some(Ok(text)) => answer(&text, ExitCode::SUCCESS),
@@ -33,7 +33,7 @@ pub fn run(args: &InfoArgs) -> ExitCode {
             None => match picture(file) {
                 Ok(text) => answer(&text, ExitCode::SUCCESS),
                 Err(error) => fail(format!(
-                    "neither a scene (.xml, .pbrt) nor an image: {error}"
+                    "neither a scene (.xml, .pbrt, .gltf, .glb) nor an image: {error}"
                 )),
             },
         },

@@ -95,7 +95,7 @@ pub(crate) fn document(
         files: mapper.files,
         parameters: Vec::new(),
         meshes: mapper.meshes,
-        embedded: mapper.embedded,
+        embedded: mapper.embedded.into_iter().enumerate().collect(),
     }
 }
 

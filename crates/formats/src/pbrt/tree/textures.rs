@@ -10,9 +10,10 @@ use super::super::parameters::Parameters;
 use super::super::scene::TextureId;
 use super::super::spectrum_value::{FloatOrTexture, SpectrumOrTexture};
 use super::Mapper;
-use super::node::{Draft, Given, given};
+use super::node::{Given, given};
 use super::spectrum::Role;
-use etalon_params::{Class, DMat4, Node, Span, SpectrumText, Value};
+pub(crate) use crate::draft::times;
+use etalon_params::{Class, DMat4, Node, Span, Value};
 use glam::DVec4;
 use std::collections::HashSet;
 
@@ -139,32 +140,6 @@ impl<'a> Mapper<'a> {
         let moved = whole != DMat4::IDENTITY;
         Some(moved.then(|| given(Value::Transform(whole), params.entity.span)))
     }
-}
-
-/// A value times a number, an object by the texture `scale`.
-pub(crate) fn times(value: Given, factor: f64) -> Given {
-    let span = value.span;
-    if factor == 1.0 {
-        return value;
-    }
-    let product = match value.value {
-        Value::Float(x) => Value::Float(x * factor),
-        Value::Rgb(rgb) => Value::Rgb(rgb * factor),
-        Value::Spectrum(SpectrumText::Uniform(x)) => {
-            Value::Spectrum(SpectrumText::Uniform(x * factor))
-        }
-        Value::Spectrum(SpectrumText::Samples(pairs)) => {
-            let pairs = pairs.into_iter().map(|(nm, x)| (nm, x * factor));
-            Value::Spectrum(SpectrumText::Samples(pairs.collect()))
-        }
-        other => {
-            return Draft::new(Class::Texture, "scale", span)
-                .with("", other, span)
-                .plain("scale", Value::Float(factor))
-                .value();
-        }
-    };
-    given(product, span)
 }
 
 /// Whether something is looked up by texture coordinates within a node.

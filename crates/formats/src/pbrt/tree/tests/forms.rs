@@ -4,6 +4,7 @@ use super::*;
 use etalon_params::DVec3;
 use etalon_transport::MeshData;
 use glam::Vec3;
+use std::sync::Arc;
 
 /// The only mesh of a world without mistakes.
 #[track_caller]
@@ -154,7 +155,7 @@ fn curves_are_gathered() {
             .count(),
         1
     );
-    let file = String::from_utf8(document.embedded[0].to_vec()).expect("a text");
+    let file = String::from_utf8(document.embedded[&0].to_vec()).expect("a text");
     let curves: Vec<Vec<&str>> = file
         .trim()
         .split("\n\n")

@@ -17,7 +17,7 @@ fn densities_stand_in_the_document() {
         r#""string type" "uniformgrid" "integer nx" 2 "integer ny" 1 "integer nz" 3 "float density" [ 1 2 3 4 5 6 ]
         "point3 p0" [ 0 0 0 ] "point3 p1" [ 2 4 3 ] "float g" 0.3 "float scale" 5"#,
     );
-    let volume = Volume::decode(&document.embedded[0]).expect("a volume");
+    let volume = Volume::decode(&document.embedded[&0]).expect("a volume");
     assert_eq!((volume.size, volume.channels), ([4, 3, 5], 1));
     assert_eq!(volume.samples[12 + 4 + 1..12 + 4 + 3], [1.0, 2.0]);
     assert_eq!(volume.samples[3 * 12 + 4 + 2], 6.0);
@@ -42,7 +42,7 @@ fn colours_are_extinction_and_albedo() {
         r#""string type" "rgbgrid" "integer nx" 2 "rgb sigma_a" [ 1 0 1 0 0 0 ] "rgb sigma_s" [ 1 2 3 4 5 6 ] "rgb Le" [ 1 1 1 0 0 0 ]"#,
     );
     let samples = |index: usize| {
-        let volume = Volume::decode(&document.embedded[index]).expect("a volume");
+        let volume = Volume::decode(&document.embedded[&index]).expect("a volume");
         assert_eq!((volume.size, volume.channels), ([4, 3, 3], 3));
         let first = 3 * (12 + 4 + 1);
         volume.samples[first..first + 6].to_vec()

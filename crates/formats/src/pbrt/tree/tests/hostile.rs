@@ -2,6 +2,7 @@
 
 use super::*;
 use proptest::prelude::*;
+use std::fmt::Write;
 
 /// Values that a parameter may be given.
 const VALUES: [&str; 12] = [

@@ -1,6 +1,7 @@
 //! What is read of pbrt and written as XML is read again as the same scene.
 
 use super::*;
+use crate::mitsuba;
 
 fn round_trip(text: &str) {
     let document = sound(text);
