@@ -133,7 +133,12 @@ impl<F: Lane> Principled<F> {
         let fresnel = fresnel::dielectric(cos, self.eta).0;
         let base = branch!(
             self.lambert.gt(F::ZERO),
-            self.lambert_base(wi, cos, fresnel),
+            // Where there is no normal half-way, it is at right angles to both.
+            self.lambert_base(
+                wi,
+                has_normal.select(cos, F::ZERO),
+                has_normal.select(fresnel, F::ONE)
+            ),
             self.base().eval(wo, wi)
         );
         let microfacet = self.microfacet();
