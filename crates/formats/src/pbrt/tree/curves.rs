@@ -12,6 +12,7 @@ use super::Mapper;
 use super::node::{Draft, word};
 use super::shapes::{Form, Wanted};
 use crate::document::embedded_name;
+use etalon_math::float64;
 use etalon_params::{DMat4, DVec3};
 use etalon_transport::MeshData;
 use glam::Vec2;
@@ -109,7 +110,8 @@ impl<'a> Mapper<'a> {
         let name = embedded_name(self.embedded.len());
         let draft = self.placed_form(params, wanted, "beziercurve", DMat4::IDENTITY)?;
         // Etalon's radii are lengths in the world.
-        let stretch = wanted.shape.placement.start.determinant().abs().cbrt();
+        let stretch = wanted.shape.placement.start.determinant().abs();
+        let stretch = float64::cbrt(stretch);
         let mut text = String::new();
         for curve in curves {
             for (index, piece) in curve.pieces.iter().enumerate() {
@@ -269,6 +271,6 @@ fn slerp(a: DVec3, b: DVec3, t: f64) -> DVec3 {
     if angle < 1e-6 {
         return a;
     }
-    let sin = etalon_math::float64::sin;
+    let sin = float64::sin;
     (sin((1.0 - t) * angle) * a + sin(t * angle) * b) / sin(angle)
 }
