@@ -174,15 +174,16 @@ Examples:
   etalon convert out.exr noise.png --channels standard_error
   etalon convert aov.exr depth.png --channels depth --range 0..20")]
     Convert(ConvertArgs),
-    /// Write a scene of pbrt-v4, or one with includes and parameters, as one file of Mitsuba's XML.
+    /// Write a scene of pbrt-v4 or glTF, or one with includes and parameters, as one file of Mitsuba's XML.
     ///
-    /// What the scene file has within (meshes, curves, grids) becomes files beside the output; other files stay where they are. The
+    /// What the scene file has within (meshes, curves, grids, pictures) becomes files beside the output; other files stay where they are. The
     /// picture is the same. What Mitsuba 3 does not have stands there as Etalon's own plugin (docs/extensions.md).
     #[command(after_help = "\
 Exit codes: 0 done, 2 bad input or usage.
 
 Examples:
   etalon convert-scene scene.pbrt scene.xml
+  etalon convert-scene model.glb model.xml
   etalon convert-scene old.xml new.xml")]
     ConvertScene(ConvertSceneArgs),
     /// Look at an image in the browser, or at two and their difference.

@@ -34,17 +34,29 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
+/// What the names of pbrt's scenes end in.
+const PBRT: &[&str] = &[".pbrt", ".pbrt.gz"];
+
+/// What those of glTF end in.
+const GLTF: &[&str] = &[".gltf", ".glb"];
+
 /// Whether the name of a file is that of a scene.
 pub fn is_scene(path: &Path) -> bool {
     is_pbrt(path) || is_gltf(path) || has_ending(path, &[".xml"])
 }
 
+/// What the names of scenes end in, for messages.
+pub fn scene_endings() -> String {
+    let all = [&[".xml"], PBRT, GLTF].concat();
+    all.join(", ")
+}
+
 fn is_pbrt(path: &Path) -> bool {
-    has_ending(path, &[".pbrt", ".pbrt.gz"])
+    has_ending(path, PBRT)
 }
 
 fn is_gltf(path: &Path) -> bool {
-    has_ending(path, &[".gltf", ".glb"])
+    has_ending(path, GLTF)
 }
 
 fn has_ending(path: &Path, endings: &[&str]) -> bool {

@@ -7,13 +7,16 @@
 //! along the direction (x, y, 1) of the light's space, at the angle θ from its axis: on the plane z = 1 a picture that is 1 everywhere makes the
 //! same irradiance everywhere. t is the tangent of half the horizontal field of view, a the picture's width over its height, s a scale.
 //! The counterpart of Mitsuba's perspective camera (Mitsuba 3, `projector`). Φ = 4π s Ē t² / a.
+//!
+//! With the `profile` `intensity` the picture is the intensity itself, as of pbrt-v4's projection light: I = s E(u, v). Then Φ is s Ē times the solid angle of
+//! the picture, up to how the mean Ē differs from one over directions.
 
 use crate::light::extent_of_cone;
 use crate::light_model::LightModel;
 use crate::pose::{Pose, emit_from_point, extent_of_way, sample_point};
 use crate::{BoundingSphere, LightExtent};
 use core::f32::consts::PI;
-use etalon_math::Animated;
+use etalon_math::{Animated, float64};
 use etalon_params::Params;
 use etalon_params::field_of_view::half_width_from_params;
 use etalon_spectrum::Wavelengths;
@@ -33,10 +36,12 @@ pub struct Projector {
     scale: f32,
     /// Half the size of the picture on the plane z = 1.
     half: Vec2,
+    /// Whether the picture is the intensity, not the irradiance on the plane.
+    of_intensity: bool,
 }
 
 impl Projector {
-    /// Reads `irradiance` (1), `scale` (1), `fov`, `fov_axis` or `focal_length` (50mm), and `to_world`.
+    /// Reads `irradiance` (1), `scale` (1), `profile` (`irradiance`), `fov`, `fov_axis` or `focal_length` (50mm), and `to_world`.
     pub fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         let picture = build.texture(params, "irradiance", Some(1.0), SpectrumKind::Emission);
         let what = "a finite number not below 0";
@@ -44,11 +49,14 @@ impl Projector {
         let [width, height] = build.resolution(picture).map(f64::from);
         let aspect = width / height;
         let half = half_width_from_params(params, aspect);
+        let profiles = ["irradiance", "intensity"];
+        let profile = params.choice("profile", profiles[0], &profiles);
         Some(Self {
             pose: Pose::animated(params, build)?,
             picture,
             scale: scale as f32,
             half: Vec2::new(half as f32, (half / aspect) as f32),
+            of_intensity: profile == profiles[1],
         })
     }
 
@@ -67,7 +75,12 @@ impl Projector {
         };
         let place = TexturePoint::at_uv(0.5 - 0.5 * at / self.half);
         let picture = textures.spectrum(self.picture, &place, wavelengths.lambda);
-        picture * (PI * self.scale / local.z.powi(3))
+        let unit = if self.of_intensity {
+            1.0
+        } else {
+            PI / local.z.powi(3)
+        };
+        picture * (self.scale * unit)
     }
 
     /// Density of directions that are uniform on the plane (sr⁻¹).
@@ -132,8 +145,13 @@ impl LightModel for Projector {
     }
 
     fn power(&self, textures: &(impl Textures + Shapes), _: &BoundingSphere) -> f64 {
-        let area = 4.0 * f64::from(self.half.x) * f64::from(self.half.y);
-        core::f64::consts::PI * area * f64::from(textures.mean(self.picture) * self.scale)
+        let [x, y] = [self.half.x, self.half.y].map(f64::from);
+        let unit = match self.of_intensity {
+            // Solid angle of a rectangle seen from a point before its middle.
+            true => 4.0 * float64::asin(x * y / ((1.0 + x * x) * (1.0 + y * y)).sqrt()),
+            false => 4.0 * core::f64::consts::PI * x * y,
+        };
+        unit * f64::from(textures.mean(self.picture) * self.scale)
     }
 
     fn extent(&self, _: &impl Shapes) -> Option<LightExtent> {

@@ -27,7 +27,7 @@ pub struct ConvertArgs {
 /// Arguments of `convert-scene`.
 #[derive(Debug, Args, Clone)]
 pub struct ConvertSceneArgs {
-    /// The scene to read (.pbrt, .pbrt.gz, .xml).
+    /// The scene to read (.xml, .pbrt, .pbrt.gz, .gltf, .glb).
     pub input: PathBuf,
     /// The scene to write (.xml).
     pub output: PathBuf,

@@ -4,7 +4,7 @@ use super::{answer, fail};
 use crate::args::ConvertSceneArgs;
 use crate::diagnose;
 use etalon_formats::mitsuba::{WrittenScene, write};
-use etalon_formats::{Document, ReadOptions, is_scene, read};
+use etalon_formats::{Document, ReadOptions, is_scene, read, scene_endings};
 use etalon_images::write_atomically;
 use etalon_render::write_guard::WriteGuard;
 use std::cell::RefCell;
@@ -17,7 +17,8 @@ pub fn run(args: &ConvertSceneArgs) -> ExitCode {
     if !is_scene(&args.input) {
         let input = args.input.display();
         return fail(format!(
-            "`{input}` is no scene: its name must end in .pbrt, .pbrt.gz or .xml"
+            "`{input}` is no scene: its name must end in one of {}",
+            scene_endings()
         ));
     }
     let outcome = read(&args.input, &ReadOptions::default());

@@ -118,7 +118,10 @@ fn lights() -> (SmallWorld, Vec<(&'static str, LightDescription)>) {
     let sun = Value::Vector(DVec3::new(0.3, 0.5, 0.6));
     let bright = vec![("sun_direction", sun), ("sun_aperture", Value::Float(3.0))];
     lights.push(("sunsky", light(&mut world, "sunsky", bright)));
+    let mut even = thrown.clone();
+    even.push(("profile", Value::String("intensity".into())));
     lights.push(("projector", light(&mut world, "projector", thrown)));
+    lights.push(("projector", light(&mut world, "projector", even)));
     lights.push(("envmap", light(&mut world, "envmap", square)));
     // It looks away from the patch, but shines behind itself, too.
     world.rectangles.push((Vec3::new(-0.2, 0.1, 1.0), Vec3::Z));
@@ -287,6 +290,16 @@ fn analytic_powers() {
             ],
             4.0 * pi,
         ),
+        // The same intensity over a sixth of all directions.
+        (
+            "projector",
+            vec![
+                ("fov", Value::Float(90.0)),
+                ("irradiance", Value::Float(1.0)),
+                ("profile", Value::String("intensity".into())),
+            ],
+            4.0 * pi / 6.0,
+        ),
         // A sharp edge: the cone's solid angle.
         (
             "spot",
@@ -314,7 +327,8 @@ fn analytic_powers() {
 fn densities_of_emission_are_those_that_are_reported() {
     let (world, mut lights) = lights();
     // Two skies are one technique; the compensated one emits uncompensated.
-    let projector = lights.pop().expect("the last of them");
+    let place = lights.iter().position(|(name, _)| *name == "projector");
+    let projector = lights.swap_remove(place.expect("it is among them"));
     lights.truncate(6);
     lights.push(projector);
     let (names, descriptions): (Vec<_>, Vec<_>) = lights.into_iter().unzip();

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | point | `point` | scale, and Φ / 4π with a `power` Φ |
 //! | goniometric | `goniometric`, with y and z exchanged | scale, and Φ / 4π times the mean of the image's numbers |
+//! | projection | `projector` of that intensity | scale, and Φ over that of the image |
 //! | spot | `spot`, with the falloff smooth in the cosine | scale, and Φ / 2π[(1 − cos b) + (cos b − cos c)/2] |
 //! | distant | `directional`, from `from` to `to` | scale, and E with an `illuminance` E |
 //! | infinite with `L` | `constant` | scale, and E / π |
@@ -36,18 +37,18 @@ impl<'a> Mapper<'a> {
             "distant" => self.distant(params, to_world),
             "infinite" => self.infinite(params, to_world),
             "goniometric" => self.goniometric(params, to_world),
-            _ => {
-                let accepted = "point, spot, distant, infinite, goniometric, and area lights";
-                self.refuse(params, "light", accepted);
-                return None;
-            }
+            "projection" => self.projection(params, to_world),
+            // All that pbrt knows are above.
+            _ => None,
         };
         let medium = light.medium.map(|medium| self.medium(medium));
         params.finish();
         let draft = found?;
         Some(match medium {
             // What is infinitely far away is in no medium.
-            Some(medium) if ["point", "spot", "goniometric"].contains(&params.entity.kind) => {
+            Some(medium)
+                if ["point", "spot", "goniometric", "projection"].contains(&params.entity.kind) =>
+            {
                 draft.child(medium?).node()
             }
             _ => draft.node(),
@@ -171,6 +172,40 @@ impl<'a> Mapper<'a> {
         Some(draft.given("intensity", intensity))
     }
 
+    /// An image thrown along +z, the right way round for who looks along with it; `fov` spans its shorter side.
+    fn projection(&mut self, params: &Parameters<'a>, to_world: DMat4) -> Option<Draft> {
+        let Some(filename) = params.string("filename") else {
+            params.missing("string filename");
+            return None;
+        };
+        let degrees = "degrees above 0, below 180";
+        let fov = params.float_where("fov", 90.0, degrees, |fov| fov > 0.0 && fov < 180.0);
+        let power = params.float("power", -1.0);
+        let mut factor = light_scale(params);
+        if power > 0.0 {
+            let picture = self.picture(params, filename)?;
+            factor *= power / thrown_power(&picture, fov);
+        }
+        let span = params.span("filename");
+        let picture = Draft::new(Class::Texture, "bitmap", span)
+            .plain("filename", word(filename))
+            .plain("filter_type", word("nearest"))
+            .plain("wrap_mode", word("clamp"));
+        let lit = Draft::new(Class::Texture, "d65", span)
+            .child(picture.node())
+            .plain("scale", Value::Float(factor));
+        // x of Mitsuba's spaces runs to the left.
+        let mirrored = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+        Some(
+            Draft::of(params, Class::Emitter, "projector")
+                .plain("to_world", Value::Transform(to_world * mirrored))
+                .from(params, "fov", "fov", Value::Float(fov))
+                .plain("fov_axis", word("smaller"))
+                .plain("profile", word("intensity"))
+                .given("irradiance", lit.value()),
+        )
+    }
+
     /// An image at infinity, times a factor, or so that it has an illuminance if that is above 0.
     fn sky_image(
         &mut self,
@@ -218,6 +253,22 @@ impl<'a> Mapper<'a> {
         params.error_at("illuminance", message);
         None
     }
+}
+
+/// Σ Y cos³ θ over the pixels of a thrown picture, each of which has an equal part of its area on the plane z = 1.
+fn thrown_power(picture: &Picture, fov: f64) -> f64 {
+    let size = [picture.width, picture.rgb.len() / picture.width].map(|side| side as f64);
+    let half = float64::tan(0.5 * fov.to_radians());
+    let shorter = size[0].min(size[1]);
+    let halves = size.map(|side| half * side / shorter);
+    let pixels = picture.rgb.iter().enumerate().map(|(i, &rgb)| {
+        let at = [i % picture.width, i / picture.width];
+        let place = |k: usize| halves[k] * (2.0 * (at[k] as f64 + 0.5) / size[k] - 1.0);
+        let [x, y] = [place(0), place(1)];
+        let cos2 = 1.0 / (1.0 + x * x + y * y);
+        luminance(rgb) * cos2 * cos2.sqrt()
+    });
+    4.0 * halves[0] * halves[1] * pixels.sum::<f64>() / picture.rgb.len() as f64
 }
 
 /// A quantity over what it is for a spectrum of luminance 1; 1 if it is not asked for.

@@ -47,7 +47,7 @@ fn every_type_is_mapped_or_named() {
         assert_mapped_or_named(kind, &format!("Accelerator \"{kind}\" WorldBegin"));
     }
     for kind in kinds::LIGHT.names() {
-        let file = if *kind == "goniometric" {
+        let file = if ["goniometric", "projection"].contains(kind) {
             "\"string filename\" \"a.exr\""
         } else {
             ""

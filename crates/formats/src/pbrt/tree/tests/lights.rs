@@ -168,3 +168,31 @@ fn images_at_infinity() {
     let expected = 10.0 / (4.0 * cosines * std::f64::consts::TAU / 16.0);
     assert!((scale / expected - 1.0).abs() < 1e-5, "{scale} {expected}");
 }
+
+/// A picture that is white everywhere throws its power evenly over the solid angle of a cube's side.
+#[test]
+fn thrown_pictures() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let pixels = [1.0_f32; 3 * 32 * 32].iter().flat_map(|x| x.to_le_bytes());
+    let bytes: Vec<u8> = b"PF\n32 32\n-1.0\n".iter().copied().chain(pixels).collect();
+    std::fs::write(folder.path().join("white.pfm"), bytes).expect("written");
+    let path = folder.path().join("a.pbrt");
+    let text =
+        r#"WorldBegin LightSource "projection" "string filename" "white.pfm" "float power" 7"#;
+    std::fs::write(&path, text).expect("written");
+    let outcome = pbrt::read(&path, &ReadOptions::default());
+    assert_eq!(outcome.lines(), "");
+    let root = outcome.document.expect("a document").root;
+    let light = children(&root).pop().expect("a light");
+    assert_eq!(light.plugin.value, "projector");
+    let picture = children(&light).pop().expect("a picture");
+    let scale = picture.properties.iter().find_map(|p| match p.value {
+        Value::Float(x) => Some(x),
+        _ => None,
+    });
+    let expected = 7.0 / (4.0 * std::f64::consts::PI / 6.0);
+    assert!(
+        (scale.expect("a factor") / expected - 1.0).abs() < 2e-3,
+        "{scale:?} {expected}"
+    );
+}

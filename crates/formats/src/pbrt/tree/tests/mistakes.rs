@@ -72,7 +72,7 @@ fn what_belongs_together() {
 #[test]
 fn several_mistakes_in_one_run() {
     let outcome = read(
-        "Film \"rgb\" \"integer xresolution\" 0 PixelFilter \"sinc\" \"float tau\" 2.5 Camera \"realistic\" WorldBegin LightSource \"projection\" Shape \"curve\"",
+        "Film \"rgb\" \"integer xresolution\" 0 PixelFilter \"sinc\" \"float tau\" 2.5 Camera \"realistic\" WorldBegin LightSource \"projection\" \"string filename\" \"a.png\" \"float fov\" 200 Shape \"curve\"",
     );
     assert_eq!(outcome.lines().lines().count(), 5, "{}", outcome.lines());
 }
