@@ -7,7 +7,7 @@ use std::any::TypeId;
 use std::path::{Path, PathBuf};
 
 /// The arguments of every command that are paths, and whether the command reads or writes there.
-const PATHS: [(&str, &str, Use); 28] = [
+const PATHS: [(&str, &str, Use); 32] = [
     ("render", "scene", Use::Reads),
     ("render", "output", Use::Writes(&["scene.xml", "-o"])),
     ("render", "strategies", Use::FillsFolder),
@@ -17,6 +17,7 @@ const PATHS: [(&str, &str, Use); 28] = [
         Use::Writes(&["scene.xml", "-o", "new.exr", "--stats"]),
     ),
     ("render", "data", Use::Reads),
+    ("render", "environment", Use::Reads),
     ("merge", "parts", Use::Reads),
     ("merge", "output", Use::Writes(&["a.exr", "b.exr", "-o"])),
     ("replicates", "pictures", Use::Reads),
@@ -63,11 +64,14 @@ const PATHS: [(&str, &str, Use); 28] = [
         ]),
     ),
     ("estimators", "data", Use::Reads),
+    ("estimators", "environment", Use::Reads),
     ("denoise", "input", Use::Reads),
     ("denoise", "oidn", Use::Reads),
     ("denoise", "output", Use::Writes(&["a.exr", "-o"])),
     ("convert", "input", Use::Reads),
     ("convert", "output", Use::Writes(&["p.png"])),
+    ("convert-scene", "input", Use::Reads),
+    ("convert-scene", "output", Use::Writes(&["scene.xml"])),
     ("movie", "files", Use::Reads),
     ("movie", "output", Use::Writes(&["p.png", "q.png", "-o"])),
     ("info", "file", Use::Reads),
