@@ -10,10 +10,10 @@ pub(crate) fn good_curves() -> String {
 
 /// The file of curves that is sound for a plugin.
 pub(crate) fn curve_file(plugin: &str) -> &'static str {
-    if plugin == "beziercurve" {
-        "bezier"
-    } else {
-        "good"
+    match plugin {
+        "beziercurve" => "bezier",
+        "hair" => "strands",
+        _ => "good",
     }
 }
 

@@ -27,6 +27,7 @@ impl Assets for Files {
         let text = match path {
             "good" => good_curves(),
             "bezier" => as_bezier(&good_curves()),
+            "strands" => "0 0 0\n0 0 1\n0 0.5 1.5".to_owned(),
             "short" => "0 0 0 1\n1 0 0 1\n\n2 0 0 1".into(),
             "words" => "0 0 zero 1".into(),
             "volume" => return Ok(Arc::new(good_volume())),
@@ -219,7 +220,7 @@ fn every_plugin_takes_its_parameters() {
                 ("p1", Value::Vector(DVec3::X)),
                 ("radius", Value::Integer(3)),
             ]),
-            "linearcurve" | "bsplinecurve" | "beziercurve" => {
+            "linearcurve" | "bsplinecurve" | "beziercurve" | "hair" => {
                 // Which are seen from outside only.
                 properties.remove(1);
                 properties.push(file(curve_file(plugin)));
@@ -266,7 +267,9 @@ fn every_plugin_answers_alike() {
     for plugin in Shape::plugins() {
         let properties = match plugin {
             "serialized" | "obj" | "ply" => vec![file("good")],
-            "linearcurve" | "bsplinecurve" | "beziercurve" => vec![file(curve_file(plugin))],
+            "linearcurve" | "bsplinecurve" | "beziercurve" | "hair" => {
+                vec![file(curve_file(plugin))]
+            }
             "bicubic" => vec![("points", Value::String(good_patch()))],
             "heightfield" => vec![file("picture")],
             "sdfgrid" => vec![file("volume")],
@@ -291,6 +294,7 @@ fn every_plugin_answers_alike() {
                     "bilinear"
                         | "bsplinecurve"
                         | "beziercurve"
+                        | "hair"
                         | "linearcurve"
                         | "plane"
                         | "blob"
