@@ -384,7 +384,7 @@ fn black_pictures_are_called_black() {
         "--integrators",
         "path,direct",
         "--time",
-        "1",
+        "4",
     ];
     let said = workshop.run(&arguments).fine().stdout;
     let notes: Vec<&str> = said
