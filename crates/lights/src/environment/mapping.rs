@@ -64,12 +64,11 @@ impl Mapping {
 
     /// The solid angles of texels of a row, in proportion to one another.
     pub(super) fn solid_angles(self, height: usize) -> impl Fn(usize) -> f64 {
-        let sines = sines_of_rows(height.max(2));
+        let weights = self.row_weights(height);
         move |row| match self {
             // Half of the hat function of a row at a pole lies beyond it.
-            Self::LatitudeLongitude { .. } if row == 0 || row + 1 == height => 0.5 * sines(row),
-            Self::LatitudeLongitude { .. } => sines(row),
-            Self::EqualArea { .. } => 1.0,
+            Self::LatitudeLongitude { .. } if row == 0 || row + 1 == height => 0.5 * weights(row),
+            _ => weights(row),
         }
     }
 

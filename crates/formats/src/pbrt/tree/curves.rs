@@ -130,13 +130,12 @@ impl<'a> Mapper<'a> {
         Some(draft.plain("filename", word(&name)))
     }
 
-    fn note_flat_curves(&mut self, params: &Parameters<'_>, wanted: &Wanted<'_>, any: bool) {
+    fn note_flat_curves(&self, params: &Parameters<'_>, wanted: &Wanted<'_>, any: bool) {
         let material = &self.scene.materials[wanted.shape.material];
-        if any && material.entity.kind != "hair" && !self.noted_flat_curves {
-            self.noted_flat_curves = true;
+        if any && material.entity.kind != "hair" {
             let message =
                 "curves of the type `flat` are tubes: they do not turn to whoever looks at them";
-            let help = "of hair the picture is the same; this is said of the first one only";
+            let help = "of hair the picture is the same";
             self.note(params.entity.span, message, help);
         }
     }

@@ -72,7 +72,6 @@ pub(crate) struct Mapper<'a> {
     meshes: Vec<Arc<MeshData>>,
     /// Contents of files that the scene file has within.
     embedded: Vec<Arc<Vec<u8>>>,
-    noted_flat_curves: bool,
     /// What the vertices of PLY files carry.
     ply_files: HashMap<String, Option<Carried>>,
     /// Files of spectra.
@@ -113,7 +112,6 @@ impl<'a> Mapper<'a> {
             groups: vec![None; scene.objects.len()],
             meshes: Vec::new(),
             embedded: Vec::new(),
-            noted_flat_curves: false,
             ply_files: HashMap::new(),
             files: Vec::new(),
         }
