@@ -56,6 +56,21 @@ def load(mi, variant, path, defines):
     return scene[0] if isinstance(scene, list) else scene
 
 
+def render(mi, scene, spp, seed):
+    """A picture. What cannot be traced as one kernel (`timed_sunsky` of Mitsuba 3.9.1) is evaluated step by step."""
+    try:
+        return mi.render(scene, spp=spp, seed=seed)
+    except RuntimeError:
+        import drjit as dr
+
+        flags = [dr.JitFlag.SymbolicCalls, dr.JitFlag.SymbolicLoops, dr.JitFlag.SymbolicConditionals]
+        if not any(dr.flag(flag) for flag in flags):
+            raise
+        for flag in flags:
+            dr.set_flag(flag, False)
+        return mi.render(scene, spp=spp, seed=seed)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scene")
@@ -80,7 +95,7 @@ def main():
     with open(arguments.output, "wb") as output:
         while written < arguments.seeds:
             seed += 1
-            pixels = np.array(mi.render(scene, spp=arguments.spp, seed=seed))
+            pixels = np.array(render(mi, scene, arguments.spp, seed))
             rgb = np.ascontiguousarray(pixels[..., :3], dtype="<f4")
             shape = rgb.shape
             if np.isfinite(rgb).all():

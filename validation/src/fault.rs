@@ -187,8 +187,8 @@ impl<W: World> Lights for Faulty<'_, W> {
         self.world.lights().has_background()
     }
 
-    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        self.energy() * self.world.lights().background(direction, wavelengths)
+    fn background(&self, direction: Vec3, time: f32, wavelengths: &Wavelengths) -> Vec4 {
+        self.energy() * (self.world.lights()).background(direction, time, wavelengths)
     }
 
     fn sample_one(
@@ -348,8 +348,8 @@ impl<W: World> World for Faulty<'_, W> {
         self.world.emission_density(light, direction, cos, time)
     }
 
-    fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
-        self.world.background_emission_density(direction)
+    fn background_emission_density(&self, direction: Vec3, time: f32) -> EmissionPdf {
+        (self.world).background_emission_density(direction, time)
     }
 
     fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {

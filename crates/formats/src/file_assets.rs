@@ -2,7 +2,7 @@
 
 use crate::document::{Document, embedded_name, mesh_name};
 use crate::{SearchPath, gzip, obj, open_bounded, ply, read_bounded, serialized};
-use etalon_transport::{AssetError, Assets, MeshData, MeshFormat};
+use etalon_transport::{AssetError, Assets, MeshData, MeshFormat, OpenFile, in_memory};
 use std::collections::{BTreeSet, HashMap};
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
@@ -96,11 +96,8 @@ impl FileAssets {
 
     /// One mesh of a file that may hold thousands: no more of it is read than that.
     fn serialized(&self, name: &str, path: &Path, index: u32) -> Result<MeshData, AssetError> {
-        let unreadable = |reason: String| AssetError {
-            message: format!("cannot read `{name}`: {reason}"),
-            help: None,
-        };
-        let mut file = open_bounded(path, self.limit).map_err(unreadable)?;
+        let mut file =
+            open_bounded(path, self.limit).map_err(|reason| unreadable(name, &reason))?;
         let mesh = serialized::read(&mut file, index);
         mesh.map_err(|error| {
             let mut head = [0; 4];
@@ -114,10 +111,7 @@ impl FileAssets {
     }
 
     fn read(&self, name: &str, path: &Path) -> Result<Vec<u8>, AssetError> {
-        read_bounded(path, self.limit).map_err(|reason| AssetError {
-            message: format!("cannot read `{name}`: {reason}"),
-            help: None,
-        })
+        read_bounded(path, self.limit).map_err(|reason| unreadable(name, &reason))
     }
 }
 
@@ -144,6 +138,17 @@ impl Assets for FileAssets {
         Ok(bytes)
     }
 
+    fn open(&self, name: &str) -> Result<Box<dyn OpenFile>, AssetError> {
+        if let Some(bytes) = self.embedded.get(name) {
+            return Ok(in_memory(Arc::clone(bytes)));
+        }
+        let path = self.find(name)?;
+        match open_bounded(&path, self.limit) {
+            Ok(file) => Ok(Box::new(file)),
+            Err(reason) => Err(unreadable(name, &reason)),
+        }
+    }
+
     fn mesh(&self, format: MeshFormat, name: &str) -> Result<MeshData, AssetError> {
         if let Some(mesh) = self.meshes.get(name) {
             return Ok((**mesh).clone());
@@ -154,10 +159,7 @@ impl Assets for FileAssets {
         }
         let bytes = self.read(name, &path)?;
         // pbrt's scenes have compressed PLY files.
-        let bytes = gzip::plain(bytes, self.limit).map_err(|reason| AssetError {
-            message: format!("cannot read `{name}`: {reason}"),
-            help: None,
-        })?;
+        let bytes = gzip::plain(bytes, self.limit).map_err(|reason| unreadable(name, &reason))?;
         let mesh = match format {
             MeshFormat::Obj => obj::parse(&bytes),
             _ => ply::parse(&bytes),
@@ -166,6 +168,13 @@ impl Assets for FileAssets {
             message: format!("`{name}`, {error}"),
             help: looks_like_another(format, &bytes),
         })
+    }
+}
+
+fn unreadable(name: &str, reason: &str) -> AssetError {
+    AssetError {
+        message: format!("cannot read `{name}`: {reason}"),
+        help: None,
     }
 }
 

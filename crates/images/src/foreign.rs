@@ -6,19 +6,25 @@ use glam::DVec3;
 use image::codecs::{bmp, hdr, jpeg, png, pnm, tga};
 use image::{ColorType, DynamicImage, ImageDecoder, Limits};
 use std::borrow::Cow;
-use std::io::Cursor;
+use std::io::{BufRead, Cursor, Seek};
 use std::path::Path;
 
 #[cfg(test)]
 mod tests;
 
+/// What a file of `length` bytes may hold.
+fn limits(length: u64) -> Limits {
+    let mut limits = Limits::default();
+    limits.max_alloc = Some((1 << 28).max(length.saturating_mul(1100)));
+    limits
+}
+
 /// A decoder that refuses images too large for the file.
 fn decoder(bytes: &[u8], format: Format) -> image::ImageResult<Box<dyn ImageDecoder + '_>> {
-    let mut limits = Limits::default();
-    limits.max_alloc = Some((1 << 28).max(1100 * bytes.len() as u64));
+    let mut limits = limits(bytes.len() as u64);
     let bytes = Cursor::new(bytes);
     let mut decoder: Box<dyn ImageDecoder> = match format {
-        Format::Png => Box::new(png::PngDecoder::with_limits(bytes, limits.clone())?),
+        Format::Png => return png_decoder(bytes, limits),
         Format::Jpeg => Box::new(jpeg::JpegDecoder::new(bytes)?),
         Format::Bmp => Box::new(bmp::BmpDecoder::new(bytes)?),
         Format::Tga => Box::new(tga::TgaDecoder::new(bytes)?),
@@ -29,6 +35,16 @@ fn decoder(bytes: &[u8], format: Format) -> image::ImageResult<Box<dyn ImageDeco
     limits.reserve(decoder.total_bytes())?;
     decoder.set_limits(limits)?;
     Ok(decoder)
+}
+
+fn png_decoder<'r>(
+    file: impl BufRead + Seek + 'r,
+    mut limits: Limits,
+) -> image::ImageResult<Box<dyn ImageDecoder + 'r>> {
+    let mut decoder = png::PngDecoder::with_limits(file, limits.clone())?;
+    limits.reserve(decoder.total_bytes())?;
+    decoder.set_limits(limits)?;
+    Ok(Box::new(decoder))
 }
 
 pub(crate) fn decode_header(
@@ -60,6 +76,37 @@ pub(crate) fn decode(bytes: &[u8], format: Format, path: &Path) -> Result<Raster
         DynamicImage::ImageRgba8(_) if opaque => DynamicImage::ImageRgb8(decoded.into_rgb8()),
         other => other,
     };
+    let mut notes = Vec::new();
+    if format == Format::Jpeg && !jpeg_ends(bytes) {
+        notes.push("the JPEG file ends too early; what is missing of the picture is grey".into());
+    }
+    let encoding = (format == Format::Png)
+        .then(|| png_encoding::note(bytes))
+        .flatten();
+    Ok(raster(decoded, format, in_xyz, path)?.noting(notes, encoding))
+}
+
+/// Decodes a PNG file of `length` bytes, which is read as its pixels are made; its `head` has what stands before them.
+pub(crate) fn decode_png(
+    file: &mut (impl BufRead + Seek + ?Sized),
+    head: &[u8],
+    length: u64,
+    path: &Path,
+) -> Result<Raster, Error> {
+    let decoded = png_decoder(file, limits(length))
+        .and_then(DynamicImage::from_decoder)
+        .map_err(|error| failure(path, error))?;
+    let raster = raster(decoded, Format::Png, false, path)?;
+    Ok(raster.noting(Vec::new(), png_encoding::note(head)))
+}
+
+/// The samples of a picture, which may be of XYZ.
+fn raster(
+    decoded: DynamicImage,
+    format: Format,
+    in_xyz: bool,
+    path: &Path,
+) -> Result<Raster, Error> {
     let size = [decoded.width() as usize, decoded.height() as usize];
     let channels = usize::from(decoded.color().channel_count());
     let samples = match decoded.color() {
@@ -85,14 +132,7 @@ pub(crate) fn decode(bytes: &[u8], format: Format, path: &Path) -> Result<Raster
         Samples::F32(xyz) if in_xyz => Samples::F32(from_xyz(xyz)),
         other => other,
     };
-    let mut notes = Vec::new();
-    if format == Format::Jpeg && !jpeg_ends(bytes) {
-        notes.push("the JPEG file ends too early; what is missing of the picture is grey".into());
-    }
-    let encoding = (format == Format::Png)
-        .then(|| png_encoding::note(bytes))
-        .flatten();
-    Ok(Raster::new(size, channels, samples, format).noting(notes, encoding))
+    Ok(Raster::new(size, channels, samples, format))
 }
 
 /// A Radiance file whose pixels are XYZ, as one of RGB, which the decoder knows; and whether it

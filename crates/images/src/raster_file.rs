@@ -4,7 +4,11 @@
 
 use crate::raster::{Raster, RasterHeader, Samples};
 use crate::{Error, Format, Frame, exr, foreign, lfs_pointer, pfm};
+use std::io::{BufRead, Read, Seek, SeekFrom};
 use std::path::Path;
+
+/// So many bytes at the beginning of a file are enough to know its format, and the metadata of a PNG file.
+const HEAD: u64 = 1 << 20;
 
 /// Reads a file of any format.
 ///
@@ -13,6 +17,28 @@ use std::path::Path;
 pub fn read(path: &Path) -> Result<Raster, Error> {
     let bytes = std::fs::read(path).map_err(|source| Error::read(path, source))?;
     decode(&bytes, path)
+}
+
+/// Reads an open file from its beginning; `path` is only for messages. Of a PNG file no more than a few rows are held beside
+/// its pixels.
+///
+/// # Errors
+/// As [`decode`], and [`Error::Read`] where the operating system refuses.
+pub fn decode_from(
+    file: &mut (impl BufRead + Seek + ?Sized),
+    path: &Path,
+) -> Result<Raster, Error> {
+    let refused = |source| Error::read(path, source);
+    let length = file.seek(SeekFrom::End(0)).map_err(refused)?;
+    file.rewind().map_err(refused)?;
+    let mut head = Vec::with_capacity(length.min(HEAD) as usize);
+    file.take(HEAD).read_to_end(&mut head).map_err(refused)?;
+    if format(&head, path)? == Format::Png {
+        file.rewind().map_err(refused)?;
+        return foreign::decode_png(file, &head, length, path);
+    }
+    file.read_to_end(&mut head).map_err(refused)?;
+    decode(&head, path)
 }
 
 /// Reads a file's bytes; `path` is only for messages.

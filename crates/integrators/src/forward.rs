@@ -71,7 +71,9 @@ impl Forward {
                     break;
                 }
                 let sky = match depth {
-                    1 => world.lights().background(ray.direction, wavelengths),
+                    1 => world
+                        .lights()
+                        .background(ray.direction, ray.time, wavelengths),
                     _ => Vec4::ZERO,
                 };
                 let radiance = PathThroughput::START.contribution(through * sky, Vec4::ZERO);

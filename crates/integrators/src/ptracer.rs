@@ -82,7 +82,10 @@ impl ParticleTracer {
             }
             let Some(hit) = hit else {
                 if visible && world.lights().has_background() {
-                    let background = world.lights().background(ray.direction, wavelengths);
+                    let background =
+                        world
+                            .lights()
+                            .background(ray.direction, ray.time, wavelengths);
                     radiance += throughput.contribution(background, Vec4::ZERO);
                     return (radiance, 1.0);
                 }

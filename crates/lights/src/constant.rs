@@ -108,7 +108,13 @@ impl LightModel for ConstantLight {
     }
 
     #[inline]
-    fn background(&self, textures: &impl Textures, _: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+    fn background(
+        &self,
+        textures: &impl Textures,
+        _: Vec3,
+        _time: f32,
+        wavelengths: &Wavelengths,
+    ) -> Vec4 {
         textures.spectrum(self.radiance, &anywhere(), wavelengths.lambda)
     }
 
@@ -148,7 +154,7 @@ impl LightModel for ConstantLight {
         let direction = direction_toward::<f32>(&from, u.to_array());
         let density = density_toward::<f32>(&from, direction);
         (density > 0.0).then(|| {
-            let radiance = self.background(textures, direction, wavelengths);
+            let radiance = self.background(textures, direction, from.time, wavelengths);
             sky::sample(direction, radiance, Density::uniform(density))
         })
     }
@@ -192,10 +198,10 @@ impl LightModel for ConstantLight {
         wavelengths: &Wavelengths,
         u_position: Vec2,
         u_direction: Vec2,
-        _time: f32,
+        time: f32,
     ) -> Option<Emission> {
         let direction = square_to_uniform_sphere(u_direction);
-        let radiance = self.background(textures, direction, wavelengths);
+        let radiance = self.background(textures, direction, time, wavelengths);
         let density = UNIFORM_SPHERE_DENSITY;
         Some(sky::emit(bounds, -direction, u_position, radiance, density))
     }

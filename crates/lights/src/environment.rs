@@ -253,7 +253,13 @@ impl LightModel for EnvironmentMap {
     }
 
     #[inline]
-    fn background(&self, _: &impl Textures, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+    fn background(
+        &self,
+        _: &impl Textures,
+        direction: Vec3,
+        _time: f32,
+        wavelengths: &Wavelengths,
+    ) -> Vec4 {
         let place = self.mapping.place(self.pose.to_local(direction));
         self.radiance::<f32>(place, |_| wavelengths.lambda)
     }

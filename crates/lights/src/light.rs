@@ -105,6 +105,8 @@ lights! {
     Spot(SpotLight) { "spot" => |params, _, build| SpotLight::from_params(params, build) }
     /// The clear sky and its sun.
     SunSky(SunSky) { "sunsky" => |params, _, build| SunSky::from_params(params, build) }
+    /// The clear sky and its sun while days pass.
+    TimedSunSky(SunSky) { "timed_sunsky" => |params, _, build| SunSky::timed_from_params(params, build) }
     /// A light without extent, by a table.
     Goniometric(Goniometric) { "goniometric" => |params, _, build| Goniometric::from_params(params, build) }
     /// A picture thrown from a point.
@@ -203,15 +205,16 @@ impl Light {
         ask!(self, light => light.emitted(textures, &SurfacePoint::from(vertex), wo, wavelengths))
     }
 
-    /// Radiance seen along the unit vector `direction` by a ray that misses everything.
+    /// Radiance seen at the moment `time` along the unit vector `direction` by a ray that misses everything.
     #[inline]
     pub fn background(
         &self,
         textures: &impl Textures,
         direction: Vec3,
+        time: f32,
         wavelengths: &Wavelengths,
     ) -> Vec4 {
-        ask!(self, light => light.background(textures, direction, wavelengths))
+        ask!(self, light => light.background(textures, direction, time, wavelengths))
     }
 
     /// A direction from `from` to the light, as if it were the only one.

@@ -34,9 +34,9 @@ pub(crate) trait LightModel {
         Vec4::ZERO
     }
 
-    /// Radiance seen along the unit vector `direction` by a ray that misses everything.
+    /// Radiance seen at the moment `time` along the unit vector `direction` by a ray that misses everything.
     #[inline]
-    fn background(&self, _: &impl Textures, _direction: Vec3, _: &Wavelengths) -> Vec4 {
+    fn background(&self, _: &impl Textures, _direction: Vec3, _time: f32, _: &Wavelengths) -> Vec4 {
         Vec4::ZERO
     }
 
@@ -56,7 +56,9 @@ pub(crate) trait LightModel {
                 .x
         };
         (
-            F::Spectrum::of_lanes(|i| self.background(textures, along(i), &wavelengths[i])),
+            F::Spectrum::of_lanes(|i| {
+                self.background(textures, along(i), from.time.lane(i), &wavelengths[i])
+            }),
             F::from_fn(density),
         )
     }

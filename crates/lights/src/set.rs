@@ -153,16 +153,17 @@ impl LightSet {
         !self.backgrounds.is_empty()
     }
 
-    /// Radiance of the lights at infinity seen along the unit vector `direction`.
+    /// Radiance of the lights at infinity seen at the moment `time` along the unit vector `direction`.
     #[inline]
     pub fn background(
         &self,
         textures: &impl Textures,
         direction: Vec3,
+        time: f32,
         wavelengths: &Wavelengths,
     ) -> Vec4 {
         let radiance =
-            |&light: &LightId| self.get(light).background(textures, direction, wavelengths);
+            |&light: &LightId| (self.get(light)).background(textures, direction, time, wavelengths);
         self.backgrounds.iter().map(radiance).sum()
     }
 
@@ -196,7 +197,7 @@ impl LightSet {
         sample.light = choice.light;
         match &mut sample.chance {
             SamplePdf::Continuous(density) if self.are_one(sample.target.is_none()) => {
-                sample.radiance = self.background(scene, sample.direction, wavelengths);
+                sample.radiance = self.background(scene, sample.direction, from.time, wavelengths);
                 *density = self.background_density(from, sample.direction);
             }
             SamplePdf::Continuous(density) => *density = *density * choice.probability,
@@ -298,7 +299,7 @@ impl LightSet {
             let toward = -emission.ray.direction;
             emission.density = self.emission_density(scene, choice.light, -toward, 1.0, time);
             let EmissionPdf { origin, ray } = emission.density;
-            emission.weight = self.background(scene, toward, wavelengths) / (origin * ray);
+            emission.weight = self.background(scene, toward, time, wavelengths) / (origin * ray);
         } else {
             emission.weight /= choice.probability;
             emission.density.origin *= choice.probability;
@@ -318,7 +319,7 @@ impl LightSet {
         time: f32,
     ) -> EmissionPdf {
         if self.backgrounds.len() > 1 && self.get(light).is_background() {
-            return self.background_emission_density(shapes, -direction);
+            return self.background_emission_density(shapes, -direction, time);
         }
         let chosen = self.get(light);
         let mut density = chosen.emission_density(shapes, &self.bounds, direction, cos, time);
@@ -326,17 +327,18 @@ impl LightSet {
         density
     }
 
-    /// The densities with which [`LightSet::emit`] makes a particle come from the lights at infinity
+    /// The densities with which [`LightSet::emit`] makes a particle come at the moment `time` from the lights at infinity
     /// seen along `direction`.
     #[inline]
     pub fn background_emission_density(
         &self,
         shapes: &impl Shapes,
         direction: Vec3,
+        time: f32,
     ) -> EmissionPdf {
         let origins = self.backgrounds.iter().map(|&light| {
             let sky = self.get(light);
-            let density = sky.emission_density(shapes, &self.bounds, -direction, 1.0, 0.0);
+            let density = sky.emission_density(shapes, &self.bounds, -direction, 1.0, time);
             density.origin * self.selector.probability_to_emit(light)
         });
         EmissionPdf {

@@ -1,6 +1,11 @@
 //! Samples and particles of skies; models of the clear sky.
 
+pub(crate) mod calendar;
+pub(crate) mod course;
+pub(crate) mod guide;
 pub(crate) mod hosek_wilkie;
+pub(crate) mod hour;
+pub(crate) mod sun_disk;
 pub(crate) mod sun_position;
 
 use crate::BoundingSphere;

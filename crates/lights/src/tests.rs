@@ -8,8 +8,8 @@ use etalon_sampling::{Independent, Sampler};
 use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
     AssetError, Assets, Build, InstanceId, LanePoint, LaneReceiver, LightId, LightSampleContext,
-    MaterialId, MeshData, MeshFormat, SampledPoint, ShapeId, Shapes, Shutter, SpectrumKind,
-    SurfaceInteraction, SurfacePoint, TextureId, TexturePoint, Textures,
+    MaterialId, MeshData, MeshFormat, OpenFile, SampledPoint, ShapeId, Shapes, Shutter,
+    SpectrumKind, SurfaceInteraction, SurfacePoint, TextureId, TexturePoint, Textures, in_memory,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
@@ -25,6 +25,7 @@ mod mistakes;
 mod mitsuba;
 mod selection;
 mod sunsky;
+mod timed_sunsky;
 mod tree;
 
 const NOWHERE: Span = Span {
@@ -59,6 +60,7 @@ const SQUARES: [[f32; 3]; 2] = [[0.1, 0.5, 0.9], [0.3, 0.7, 0.2]];
 /// Textures, files, and rectangles [−1, 1]² moved to a place, whose normal is +z or −z.
 #[derive(Default)]
 struct SmallWorld {
+    shutter: Shutter,
     patterns: Vec<Pattern>,
     files: HashMap<String, Arc<Vec<u8>>>,
     rectangles: Vec<(Vec3, Vec3)>,
@@ -70,6 +72,10 @@ impl Assets for SmallWorld {
             message: format!("there is no file `{path}`"),
             help: None,
         })
+    }
+
+    fn open(&self, path: &str) -> Result<Box<dyn OpenFile>, AssetError> {
+        self.bytes(path).map(in_memory)
     }
 
     fn mesh(&self, _: MeshFormat, path: &str) -> Result<MeshData, AssetError> {
@@ -86,7 +92,7 @@ impl Build for SmallWorld {
     }
 
     fn shutter(&self) -> Shutter {
-        Shutter::default()
+        self.shutter
     }
 
     fn texture(

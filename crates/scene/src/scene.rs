@@ -244,9 +244,13 @@ impl World for Scene {
     }
 
     #[inline]
-    fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
+    fn background_emission_density(&self, direction: Vec3, time: f32) -> EmissionPdf {
         let lights = &self.parts.lights;
-        self.of_others(lights.background_emission_density(&self.parts.space.lookup, direction))
+        self.of_others(lights.background_emission_density(
+            &self.parts.space.lookup,
+            direction,
+            time,
+        ))
     }
 
     #[inline]

@@ -210,14 +210,14 @@ fn image(
         diagnostic.help = help;
         reader.diagnostics.push(diagnostic);
     };
-    let bytes = match reader.assets.bytes(filename) {
-        Ok(bytes) => bytes,
+    let mut file = match reader.assets.open(filename) {
+        Ok(file) => file,
         Err(error) => {
             fail(error.message, error.help);
             return None;
         }
     };
-    let (size, pixels, notes) = match FilePixels::decode(&bytes, raw, channel, filename) {
+    let (size, pixels, notes) = match FilePixels::decode(&mut *file, raw, channel, filename) {
         Ok(decoded) => decoded,
         Err(message) => {
             fail(message, None);
@@ -229,8 +229,6 @@ fn image(
             .diagnostics
             .push(Diagnostic::note(property.span, note));
     }
-    // The pixels are all that is needed of a file that may be large.
-    drop(bytes);
     let negative =
         matches!(&pixels, FilePixels::Floats(Values::One(v)) if v.iter().any(|&x| x < 0.0));
     if negative && role == SpectrumKind::Emission {

@@ -1,9 +1,10 @@
-//! From the bytes of an image file to pixels.
+//! From an image file to pixels.
 
 use crate::coded::Coded;
 use crate::picture::FilePixels;
 use crate::pixels::Values;
 use etalon_images::{Samples, raster_file, srgb};
+use etalon_transport::OpenFile;
 use glam::UVec2;
 use std::ops::Range;
 use std::path::Path;
@@ -18,18 +19,18 @@ pub enum ImageChannel {
 }
 
 impl FilePixels {
-    /// Decodes an image file, whose format is known by its content, to its size and pixels. Integer samples are taken to
+    /// Decodes an open image file, whose format is known by its content, to its size and pixels. Integer samples are taken to
     /// be encoded as sRGB, unless `raw`; floats are linear. Alpha is dropped (not divided by), as
     /// Mitsuba does, unless it is the one `channel` that is wanted. `name` is for messages, which name the file. Beside the
     /// pixels stands what their user should know of the file.
     pub fn decode(
-        bytes: &[u8],
+        file: &mut dyn OpenFile,
         raw: bool,
         channel: Option<ImageChannel>,
         name: &str,
     ) -> Result<(UVec2, Self, Vec<String>), String> {
         let raster =
-            raster_file::decode(bytes, Path::new(name)).map_err(|error| error.to_string())?;
+            raster_file::decode_from(file, Path::new(name)).map_err(|error| error.to_string())?;
         let size = UVec2::new(raster.width() as u32, raster.height() as u32);
         let channels = raster.channels();
         let wanted = match channel {

@@ -6,7 +6,8 @@ use etalon_math::lane::Lane;
 use etalon_params::{Class, Diagnostics, FileId, Node, Property, Span, Spanned, Value};
 use etalon_transport::{
     AssetError, Assets, LanePoint, LaneReceiver, LightSampleContext, MeshData, MeshFormat,
-    SampledPoint, ShapeId, Shapes, SpectrumKind, SurfacePoint, TextureId, TexturePoint,
+    OpenFile, SampledPoint, ShapeId, Shapes, SpectrumKind, SurfacePoint, TextureId, TexturePoint,
+    in_memory,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
@@ -80,6 +81,10 @@ impl Assets for Files {
             message: format!("there is no file `{path}`"),
             help: None,
         })
+    }
+
+    fn open(&self, path: &str) -> Result<Box<dyn OpenFile>, AssetError> {
+        self.bytes(path).map(in_memory)
     }
 
     fn mesh(&self, _: MeshFormat, path: &str) -> Result<MeshData, AssetError> {

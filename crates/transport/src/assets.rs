@@ -1,6 +1,7 @@
 //! Files that a scene refers to.
 
 use crate::MeshData;
+use std::io::{BufRead, Cursor, Seek};
 use std::sync::Arc;
 
 /// Why an asset could not be had: one sentence that names the file.
@@ -27,10 +28,31 @@ pub enum MeshFormat {
     },
 }
 
+/// A file that is read from here and there.
+pub trait OpenFile: BufRead + Seek {}
+
+impl<T: BufRead + Seek> OpenFile for T {}
+
+/// The bytes of a file that somebody holds, as an open file.
+pub fn in_memory(bytes: Arc<Vec<u8>>) -> Box<dyn OpenFile> {
+    struct Shared(Arc<Vec<u8>>);
+
+    impl AsRef<[u8]> for Shared {
+        fn as_ref(&self) -> &[u8] {
+            &self.0
+        }
+    }
+
+    Box::new(Cursor::new(Shared(bytes)))
+}
+
 /// Lookup of files along the scene's search path.
 pub trait Assets: Sync {
     /// The bytes of a file.
     fn bytes(&self, path: &str) -> Result<Arc<Vec<u8>>, AssetError>;
+
+    /// A file that may be large and whose bytes nobody needs all at once.
+    fn open(&self, path: &str) -> Result<Box<dyn OpenFile>, AssetError>;
 
     /// A mesh. Texture coordinates are as in the file (not flipped).
     fn mesh(&self, format: MeshFormat, path: &str) -> Result<MeshData, AssetError>;

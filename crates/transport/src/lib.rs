@@ -35,7 +35,7 @@ pub mod surface_interaction;
 pub mod textures;
 pub mod world;
 
-pub use assets::{AssetError, Assets, MeshFormat};
+pub use assets::{AssetError, Assets, MeshFormat, OpenFile, in_memory};
 pub use bsdf::{Bsdf, BsdfSample, TransportMode};
 pub use build::uniformity::{is_varying, refuse_varying};
 pub use build::{Build, SpectrumKind, file};

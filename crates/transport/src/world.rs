@@ -154,7 +154,7 @@ pub trait World: Sync {
     -> EmissionPdf;
 
     /// The same for a particle from the lights at infinity seen along the unit vector `direction`.
-    fn background_emission_density(&self, direction: Vec3) -> EmissionPdf;
+    fn background_emission_density(&self, direction: Vec3, time: f32) -> EmissionPdf;
 
     /// The density with which [`World::sample_light`] from `from` would have chosen the point
     /// where a particle began; the probability of its light if that is a point or a direction.

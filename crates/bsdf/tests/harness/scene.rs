@@ -7,8 +7,9 @@ use etalon_math::lane::{Lane, Spectral};
 use etalon_params::{Diagnostic, Diagnostics, Node, Params, Severity, SpectrumText, Value};
 use etalon_spectrum::{Spectrum, Wavelengths};
 use etalon_transport::{
-    AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, ShapeId,
-    Shutter, SpectrumKind, SurfaceInteraction, TextureId, TexturePoint, Textures,
+    AssetError, Assets, Build, InstanceId, LightId, MaterialId, MeshData, MeshFormat, OpenFile,
+    ShapeId, Shutter, SpectrumKind, SurfaceInteraction, TextureId, TexturePoint, Textures,
+    in_memory,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -39,6 +40,10 @@ impl Assets for Files {
                 message: format!("no file {path}"),
                 help: None,
             })
+    }
+
+    fn open(&self, path: &str) -> Result<Box<dyn OpenFile>, AssetError> {
+        self.bytes(path).map(in_memory)
     }
 
     fn mesh(&self, _: MeshFormat, path: &str) -> Result<MeshData, AssetError> {

@@ -7,8 +7,8 @@ use etalon_params::{
     Class, DMat4, DVec3, Diagnostics, FileId, Node, Params, Property, Span, Spanned, Value,
 };
 use etalon_transport::{
-    AssetError, Assets, Build, LightSampleContext, MeshData, MeshFormat, Ray, ShapeId, Shapes,
-    Shutter, SpectrumKind, TextureId,
+    AssetError, Assets, Build, LightSampleContext, MeshData, MeshFormat, OpenFile, Ray, ShapeId,
+    Shapes, Shutter, SpectrumKind, TextureId, in_memory,
 };
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
@@ -43,6 +43,10 @@ impl Assets for Files {
             }
         };
         Ok(Arc::new(text.into_bytes()))
+    }
+
+    fn open(&self, path: &str) -> Result<Box<dyn OpenFile>, AssetError> {
+        self.bytes(path).map(in_memory)
     }
 
     fn mesh(&self, _: MeshFormat, path: &str) -> Result<MeshData, AssetError> {

@@ -117,7 +117,7 @@ impl FromCamera {
                 self.alpha = 1.0;
                 let density = self.carried.density * self.carried.passed.x;
                 let arrival = self.carried.arrival(density);
-                connector.hit_background(&arrival, direction, vertices);
+                connector.hit_background(&arrival, &self.carried.ray, vertices);
             }
             return false;
         };

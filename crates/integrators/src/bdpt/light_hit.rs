@@ -4,7 +4,7 @@ use super::connect::{Connector, EVENLY};
 use super::path_vertex::SubpathVertex;
 use super::pdf_ratios::{EndPdfs, pdf_ratios_more};
 use super::subpath::SubpathEnd;
-use etalon_transport::{Lights, MediumId, SurfaceInteraction, World};
+use etalon_transport::{Lights, MediumId, Ray, SurfaceInteraction, World};
 use glam::{Vec3, Vec4};
 
 /// Densities of the last vertex, for a path that hit a light, if generated from the light.
@@ -64,17 +64,18 @@ impl<'w, W: World> Connector<'_, 'w, W> {
         });
     }
 
-    /// s = 0: the camera subpath left the scene.
+    /// s = 0: the camera subpath left the scene along `ray`.
     pub(super) fn hit_background(
         &mut self,
         arrival: &SubpathEnd,
-        direction: Vec3,
+        ray: &Ray,
         camera: &[SubpathVertex<'w, W>],
     ) {
         let world = self.world;
-        let radiance = world.lights().background(direction, self.wavelengths);
+        let (direction, time) = (ray.direction, ray.time);
+        let radiance = (world.lights()).background(direction, time, self.wavelengths);
         self.add_emitted(arrival, radiance, camera, |first| {
-            let emission = world.background_emission_density(direction);
+            let emission = world.background_emission_density(direction, time);
             let from = first.receiver();
             LightHitPdfs {
                 sampled: world.background_density(&from, direction).lanes(),

@@ -143,7 +143,11 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         let path = |i: usize| &self.paths[index.as_ref()[i]];
         let wavelengths = F::array(|i| path(i).wavelengths);
         let direction = F::Vector::of_lanes(|i| self.rays[segment(i)].direction);
-        let from = LaneReceiver::<F>::of_lanes(|i| &path(i).light_mis.from);
+        // A camera ray comes from no receiver, but at a moment.
+        let from = LaneReceiver {
+            time: F::from_fn(|i| self.rays[segment(i)].time),
+            ..LaneReceiver::<F>::of_lanes(|i| &path(i).light_mis.from)
+        };
         let (radiance, density) = lanes.background(&from, direction, wavelengths.as_ref());
         let throughput = PathThroughput::<F>::of_lanes(|i| &path(i).throughput);
         let r_l = F::Spectrum::of_lanes(|i| path(i).light_mis.r_l);

@@ -202,8 +202,8 @@ impl<L: Lights> Lights for Recording<'_, L> {
         self.part.has_background()
     }
 
-    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
-        let radiance = self.part.background(direction, wavelengths);
+    fn background(&self, direction: Vec3, time: f32, wavelengths: &Wavelengths) -> Vec4 {
+        let radiance = self.part.background(direction, time, wavelengths);
         let (along, light) = (vector(direction), lanes(radiance));
         self.log
             .line_at(wavelengths, format!("    sky along {along}: {light}"));
@@ -361,8 +361,8 @@ impl<'a, W: World> World for Recorder<'a, W> {
         self.world.emission_density(light, direction, cos, time)
     }
 
-    fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
-        self.world.background_emission_density(direction)
+    fn background_emission_density(&self, direction: Vec3, time: f32) -> EmissionPdf {
+        self.world.background_emission_density(direction, time)
     }
 
     fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {

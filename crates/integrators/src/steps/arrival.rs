@@ -42,7 +42,7 @@ impl Arriving<'_> {
     ) -> Arrival {
         let Some(hit) = hit else {
             return match sees_background && world.lights().has_background() {
-                true => Arrival::Background(self.background(world, ray.direction)),
+                true => Arrival::Background(self.background(world, ray)),
                 false => Arrival::Nothing,
             };
         };
@@ -54,11 +54,12 @@ impl Arriving<'_> {
         Arrival::Surface(vertex, emission)
     }
 
-    /// The contribution of a path that leaves the scene along `direction`.
+    /// The contribution of a path that leaves the scene along `ray`.
     #[inline]
-    fn background<W: World>(&self, world: &W, direction: Vec3) -> Vec4 {
-        let radiance = world.lights().background(direction, self.wavelengths);
-        let by_light_sampling = self.light_mis.pdf_at_background(world, direction);
+    fn background<W: World>(&self, world: &W, ray: &Ray) -> Vec4 {
+        let lights = world.lights();
+        let radiance = lights.background(ray.direction, ray.time, self.wavelengths);
+        let by_light_sampling = self.light_mis.pdf_at_background(world, ray.direction);
         self.throughput.contribution(radiance, by_light_sampling)
     }
 

@@ -205,7 +205,7 @@ impl Lights for Sphere {
     fn has_background(&self) -> bool {
         false
     }
-    fn background(&self, _: Vec3, _: &Wavelengths) -> Vec4 {
+    fn background(&self, _: Vec3, _: f32, _: &Wavelengths) -> Vec4 {
         Vec4::ZERO
     }
     fn sample_one(
@@ -342,7 +342,7 @@ impl World for Sphere {
             ray: cos.max(0.0) / PI,
         }
     }
-    fn background_emission_density(&self, _: Vec3) -> EmissionPdf {
+    fn background_emission_density(&self, _: Vec3, _: f32) -> EmissionPdf {
         EmissionPdf::ZERO
     }
     fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {

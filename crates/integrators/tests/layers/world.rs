@@ -220,7 +220,7 @@ impl Lights for Stack {
     fn has_background(&self) -> bool {
         (self.sky)(550.0) > 0.0
     }
-    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+    fn background(&self, direction: Vec3, _: f32, wavelengths: &Wavelengths) -> Vec4 {
         curve(self.sky, wavelengths.lambda) * float::pow(direction.z.abs(), self.sky_power)
     }
     fn sample_one(
@@ -332,7 +332,7 @@ impl World for Stack {
             return Some(LightSample {
                 direction,
                 target: None,
-                radiance: self.background(direction, w),
+                radiance: self.background(direction, 0.0, w),
                 chance: uniform(self.hemisphere_density() * 0.5),
                 cos: 1.0,
                 origin: LightKind::Sky,
@@ -380,7 +380,7 @@ impl World for Stack {
     fn emission_density(&self, _: LightId, _: Vec3, _: f32, _: f32) -> EmissionPdf {
         EmissionPdf::ZERO
     }
-    fn background_emission_density(&self, _: Vec3) -> EmissionPdf {
+    fn background_emission_density(&self, _: Vec3, _: f32) -> EmissionPdf {
         EmissionPdf::ZERO
     }
     fn light_sample_density(&self, _: &LightSampleContext, _: &Emission) -> f32 {

@@ -65,23 +65,34 @@ static DATA: LazyLock<Data> = LazyLock::new(|| {
 });
 
 /// A, B, C, D, E, F, G, I, H and M at a band, as the data have them.
-type Band = [f32; PARAMETERS + 1];
+type Parameters = [f32; PARAMETERS + 1];
 
-/// A sky with its sun.
+/// A band above black and above white ground.
+pub(crate) type Band = [Parameters; 2];
+
+/// The shares of the control points of the curves.
+pub(crate) type Weights = [f32; CONTROLS];
+
+/// The skies of one turbidity, wherever the sun is.
 #[derive(Clone, Debug)]
 pub(crate) struct HosekWilkie {
-    /// Above black and above white ground.
-    sky: [[Band; BANDS]; 2],
+    controls: [[Band; BANDS]; CONTROLS],
     sun: Vec<[[f32; POWERS]; BANDS]>,
-    /// The mean radiance over the sun's disk, at each band.
-    mean: [f32; BANDS],
-    /// From the zenith, rad.
-    theta: f32,
+}
+
+/// The shares of the control points while the sun is at `theta` from the zenith (rad): those of quintic Bézier curves.
+pub(crate) fn weights(theta: f32) -> Weights {
+    let elevation = (FRAC_PI_2 - theta).max(0.0);
+    let x = float::cbrt(elevation / FRAC_PI_2);
+    let binomial = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
+    std::array::from_fn(|i| {
+        binomial[i] * x.powi(i as i32) * (1.0 - x).powi((CONTROLS - 1 - i) as i32)
+    })
 }
 
 impl HosekWilkie {
-    /// The sky of a `turbidity` in [1, 10], with the sun at `theta` ≤ π/2 from the zenith.
-    pub(crate) fn new(turbidity: f32, theta: f32) -> Self {
+    /// The skies of a `turbidity` in [1, 10].
+    pub(crate) fn new(turbidity: f32) -> Self {
         let data = &*DATA;
         let place = (turbidity - 1.0).clamp(0.0, (TURBIDITIES - 1) as f32);
         let low = (place as usize).min(TURBIDITIES - 2);
@@ -93,72 +104,48 @@ impl HosekWilkie {
             );
             a + (b - a) * t
         };
-        let elevation = (FRAC_PI_2 - theta).max(0.0);
-        let x = float::cbrt(elevation / FRAC_PI_2);
-        let weights = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
-        let weight =
-            |i: usize| weights[i] * x.powi(i as i32) * (1.0 - x).powi((CONTROLS - 1 - i) as i32);
-        let curve = |table: &[f32], entries: usize, albedo: usize, entry: usize| -> f32 {
-            let stride = 2 * CONTROLS * entries;
-            (0..CONTROLS)
-                .map(|i| weight(i) * mix(table, stride, (albedo * CONTROLS + i) * entries + entry))
-                .sum()
+        let parameter = |control: usize, band: usize, albedo: usize, p: usize| {
+            let entry = (albedo * CONTROLS + control) * BANDS + band;
+            if p < PARAMETERS {
+                let stride = 2 * CONTROLS * BANDS * PARAMETERS;
+                mix(&data.parameters, stride, entry * PARAMETERS + p)
+            } else {
+                mix(&data.radiance, 2 * CONTROLS * BANDS, entry)
+            }
         };
-        let sky = [0, 1].map(|albedo| {
-            std::array::from_fn(|band| {
-                std::array::from_fn(|p| {
-                    if p < PARAMETERS {
-                        curve(
-                            &data.parameters,
-                            BANDS * PARAMETERS,
-                            albedo,
-                            band * PARAMETERS + p,
-                        )
-                    } else {
-                        curve(&data.radiance, BANDS, albedo, band)
-                    }
-                })
-            })
-        });
-        let sun = (0..SEGMENTS)
-            .map(|segment| {
+        let sun = |segment: usize, band: usize, power: usize| {
+            let index = (segment * BANDS + band) * POWERS + power;
+            mix(&data.sun, SEGMENTS * BANDS * POWERS, index)
+        };
+        Self {
+            controls: std::array::from_fn(|i| {
                 std::array::from_fn(|band| {
-                    std::array::from_fn(|power| {
-                        let index = (segment * BANDS + band) * POWERS + power;
-                        mix(&data.sun, SEGMENTS * BANDS * POWERS, index)
-                    })
+                    [0, 1].map(|albedo| std::array::from_fn(|p| parameter(i, band, albedo, p)))
                 })
-            })
-            .collect();
-        let mut sky = Self {
-            sky,
-            sun,
-            mean: [0.0; BANDS],
-            theta,
-        };
-        sky.mean = std::array::from_fn(|band| sky.mean_of_sun(band));
-        sky
+            }),
+            sun: (0..SEGMENTS)
+                .map(|i| std::array::from_fn(|band| std::array::from_fn(|p| sun(i, band, p))))
+                .collect(),
+        }
     }
 
-    /// The sky's radiance at a band, for the cosine to the zenith and the angle to the sun, above ground of this albedo.
+    /// A band of the sky while the sun is where the control points have these `weights`.
     #[inline]
-    pub(crate) fn sky(&self, band: usize, cos: f32, gamma: f32, albedo: f32) -> f32 {
-        let [black, white] = [&self.sky[0][band], &self.sky[1][band]];
-        let [a, b, c, d, e, f, g, i, h, mean]: Band =
-            std::array::from_fn(|p| black[p] + (white[p] - black[p]) * albedo);
-        let cos_gamma = float::cos(gamma);
-        let square = cos_gamma * cos_gamma;
-        let base = (1.0 + h * h - 2.0 * h * cos_gamma).max(1e-6);
-        let chi = (1.0 + square) / (base * base.sqrt());
-        let zenith = 1.0 + a * float::exp(b / (cos + 0.01));
-        let around = c + d * float::exp(e * gamma) + f * square + g * chi + i * cos.max(0.0).sqrt();
-        (zenith * around * mean).max(0.0)
+    pub(crate) fn band(&self, weights: &Weights, band: usize) -> Band {
+        let mut sum = [[0.0; PARAMETERS + 1]; 2];
+        for (weight, control) in weights.iter().zip(&self.controls) {
+            for (sum, control) in sum.iter_mut().zip(&control[band]) {
+                for (sum, control) in sum.iter_mut().zip(control) {
+                    *sum += weight * control;
+                }
+            }
+        }
+        sum
     }
 
-    /// The sun's mean radiance at a band.
-    #[inline]
-    pub(crate) fn mean_sun(&self, band: usize) -> f32 {
-        self.mean[band]
+    /// All bands of the sky.
+    pub(crate) fn bands(&self, weights: &Weights) -> [Band; BANDS] {
+        std::array::from_fn(|band| self.band(weights, band))
     }
 
     /// The sun's radiance at a band toward the elevation `elevation`, `share` of its radius from its centre.
@@ -173,8 +160,9 @@ impl HosekWilkie {
         (bright * polynomial(limb, psi)).max(0.0)
     }
 
-    /// The mean over the disk, by rings of equal area; what is below the horizon is black.
-    fn mean_of_sun(&self, band: usize) -> f32 {
+    /// The mean radiance at a band over the disk of the sun at `theta` from the zenith, by rings of equal area; what is
+    /// below the horizon is black.
+    pub(crate) fn mean_sun(&self, band: usize, theta: f32) -> f32 {
         const RINGS: usize = 16;
         const TURNS: usize = 24;
         let mut sum = 0.0;
@@ -182,7 +170,7 @@ impl HosekWilkie {
             let share = ((ring as f32 + 0.5) / RINGS as f32).sqrt();
             for turn in 0..TURNS {
                 let angle = TAU * (turn as f32 + 0.5) / TURNS as f32;
-                let elevation = FRAC_PI_2 - self.theta + share * SUN_RADIUS * float::sin(angle);
+                let elevation = FRAC_PI_2 - theta + share * SUN_RADIUS * float::sin(angle);
                 if elevation > 0.0 {
                     sum += self.sun(band, elevation, share);
                 }
@@ -190,6 +178,20 @@ impl HosekWilkie {
         }
         sum / (RINGS * TURNS) as f32
     }
+}
+
+/// The sky's radiance in a band, for the cosine to the zenith and the angle to the sun, above ground of this albedo.
+#[inline]
+pub(crate) fn radiance([black, white]: &Band, cos: f32, gamma: f32, albedo: f32) -> f32 {
+    let [a, b, c, d, e, f, g, i, h, mean]: Parameters =
+        std::array::from_fn(|p| black[p] + (white[p] - black[p]) * albedo);
+    let cos_gamma = float::cos(gamma);
+    let square = cos_gamma * cos_gamma;
+    let base = (1.0 + h * h - 2.0 * h * cos_gamma).max(1e-6);
+    let chi = (1.0 + square) / (base * base.sqrt());
+    let zenith = 1.0 + a * float::exp(b / (cos + 0.01));
+    let around = c + d * float::exp(e * gamma) + f * square + g * chi + i * cos.max(0.0).sqrt();
+    (zenith * around * mean).max(0.0)
 }
 
 /// Σ cᵢ xⁱ.

@@ -11,51 +11,89 @@ use etalon_params::Params;
 /// The mean radius of the earth over the astronomical unit.
 const PARALLAX: f64 = 6371.01 / 149_597_890.0;
 
-/// A moment by the clock of a place.
+/// A place on earth and its clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Moment {
+pub(crate) struct Place {
     /// Degrees, north positive.
     latitude: f64,
     /// Degrees, east positive.
     longitude: f64,
     /// Hours of the clock before universal time.
     timezone: f64,
-    date: [i64; 3],
+}
+
+/// A moment by the clock of a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Moment {
+    pub(crate) place: Place,
+    /// Year, month and day; the day may be beyond the end of its month.
+    pub(crate) date: [i64; 3],
     /// Hours since midnight, by the clock.
-    hours: f64,
+    pub(crate) hours: f64,
+}
+
+/// A number within bounds.
+fn within(params: &Params<'_>, name: &str, default: f64, [low, high]: [f64; 2], what: &str) -> f64 {
+    params.float_where(name, default, what, |x| (low..=high).contains(&x))
+}
+
+/// Reads a date from parameters with these names of year, month and day.
+pub(crate) fn date_from_params(
+    params: &Params<'_>,
+    names: [&str; 3],
+    default: [i64; 3],
+) -> [i64; 3] {
+    let bounds = [(1, 9999, "a year"), (1, 12, "a month"), (1, 31, "a day")];
+    std::array::from_fn(|i| {
+        let (low, high, what) = bounds[i];
+        let value = params.integer_or(names[i], default[i]);
+        if !(low..=high).contains(&value) {
+            params.refuse(names[i], value, &format!("{what} from {low} to {high}"));
+        }
+        value.clamp(low, high)
+    })
+}
+
+/// The number of the Julian day that begins at noon of a date (Fliegel and Van Flandern 1968); divisions toward zero.
+pub(crate) fn julian_day([year, month, day]: [i64; 3]) -> i64 {
+    let shift = (month - 14) / 12;
+    (1461 * (year + 4800 + shift)) / 4 + (367 * (month - 2 - 12 * shift)) / 12
+        - (3 * ((year + 4900 + shift) / 100)) / 4
+        + day
+        - 32075
+}
+
+impl Place {
+    /// Reads `latitude`, `longitude` and `timezone`; by default Tokyo, as in Mitsuba.
+    pub(crate) fn from_params(params: &Params<'_>) -> Self {
+        let angle = |name: &str, default: f64, most: f64| {
+            let what = format!("degrees from -{most} to {most}");
+            within(params, name, default, [-most, most], &what)
+        };
+        Self {
+            latitude: angle("latitude", 35.6894, 90.0),
+            longitude: angle("longitude", 139.6917, 180.0),
+            timezone: within(
+                params,
+                "timezone",
+                9.0,
+                [-14.0, 14.0],
+                "hours from -14 to 14",
+            ),
+        }
+    }
 }
 
 impl Moment {
-    /// Reads `latitude`, `longitude`, `timezone`, `year`, `month`, `day`, `hour`, `minute`, `second`; by default, as in
-    /// Mitsuba, 10 July 2010 in Tokyo at three in the afternoon.
+    /// Reads a [`Place`] and `year`, `month`, `day`, `hour`, `minute`, `second`; by default, as in Mitsuba, 10 July 2010
+    /// at three in the afternoon.
     pub(crate) fn from_params(params: &Params<'_>) -> Self {
-        let within = |name: &str, default: f64, [low, high]: [f64; 2], what: &str| {
-            params.float_where(name, default, what, |x| (low..=high).contains(&x))
-        };
-        let whole = |name: &str, default: i64, [low, high]: [i64; 2], what: &str| {
-            let value = params.integer_or(name, default);
-            if !(low..=high).contains(&value) {
-                params.refuse(name, value, what);
-            }
-            value.clamp(low, high)
-        };
         let clock = |name: &str, default: f64, end: f64, what: &str| {
-            within(name, default, [0.0, end], what)
+            within(params, name, default, [0.0, end], what)
         };
         Self {
-            latitude: within("latitude", 35.6894, [-90.0, 90.0], "degrees from -90 to 90"),
-            longitude: within(
-                "longitude",
-                139.6917,
-                [-180.0, 180.0],
-                "degrees from -180 to 180",
-            ),
-            timezone: within("timezone", 9.0, [-14.0, 14.0], "hours from -14 to 14"),
-            date: [
-                whole("year", 2010, [1, 9999], "a year from 1 to 9999"),
-                whole("month", 7, [1, 12], "a month from 1 to 12"),
-                whole("day", 10, [1, 31], "a day from 1 to 31"),
-            ],
+            place: Place::from_params(params),
+            date: date_from_params(params, ["year", "month", "day"], [2010, 7, 10]),
             hours: clock("hour", 15.0, 24.0, "hours from 0 to 24")
                 + clock("minute", 0.0, 60.0, "minutes from 0 to 60") / 60.0
                 + clock("second", 0.0, 60.0, "seconds from 0 to 60") / 3600.0,
@@ -64,15 +102,9 @@ impl Moment {
 
     /// Days since noon of 1 January 2000, universal time, and hours of universal time.
     fn days(&self) -> (f64, f64) {
-        let [year, month, day] = self.date;
-        let hours = self.hours - self.timezone;
-        // The Julian day at noon (Fliegel and Van Flandern 1968); divisions toward zero.
-        let shift = (month - 14) / 12;
-        let julian = (1461 * (year + 4800 + shift)) / 4 + (367 * (month - 2 - 12 * shift)) / 12
-            - (3 * ((year + 4900 + shift) / 100)) / 4
-            + day
-            - 32075;
-        (julian as f64 - 0.5 + hours / 24.0 - 2_451_545.0, hours)
+        let hours = self.hours - self.place.timezone;
+        let days = julian_day(self.date) as f64 - 0.5 + hours / 24.0;
+        (days - 2_451_545.0, hours)
     }
 
     /// Angle from the zenith and azimuth of the sun, rad. The azimuth is 0 in the south and grows toward the west.
@@ -92,9 +124,9 @@ impl Moment {
         let ascension = float64::atan2(cos_o * sin_l, cos_l);
         let declination = float64::asin(sin_o * sin_l);
         let sidereal = 6.697_424_324_2 + 0.065_709_828_3 * days + hours;
-        let hour_angle = (15.0 * sidereal + self.longitude).to_radians() - ascension;
+        let hour_angle = (15.0 * sidereal + self.place.longitude).to_radians() - ascension;
         let (sin_h, cos_h) = float64::sin_cos(hour_angle);
-        let (sin_b, cos_b) = float64::sin_cos(self.latitude.to_radians());
+        let (sin_b, cos_b) = float64::sin_cos(self.place.latitude.to_radians());
         let height = cos_b * cos_h * float64::cos(declination) + float64::sin(declination) * sin_b;
         let zenith = float64::acos(height.clamp(-1.0, 1.0));
         let azimuth = float64::atan2(-sin_h, float64::tan(declination) * cos_b - sin_b * cos_h);

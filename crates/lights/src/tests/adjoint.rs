@@ -197,7 +197,7 @@ fn emitted_particles_carry_what_sampling_finds() {
             let value = if compensated {
                 // Its own directions leave out what is dark; uniform ones do not.
                 let direction = square_to_uniform_hemisphere(u);
-                let radiance = set.background(&world, direction, &WAVELENGTHS).y;
+                let radiance = set.background(&world, direction, 0.0, &WAVELENGTHS).y;
                 radiance * direction.z * core::f32::consts::TAU
             } else {
                 let found = set.sample(&world, &from, &WAVELENGTHS, u_light, u);
@@ -350,7 +350,7 @@ fn densities_of_emission_are_those_that_are_reported() {
                 let reported = set.emission_density(&world, particle.light, -toward, 1.0, 0.0);
                 assert!((reported.origin / origin - 1.0).abs() < 1e-3, "{light}");
                 assert_eq!(reported.ray, ray);
-                let radiance = set.background(&world, toward, &WAVELENGTHS).y;
+                let radiance = set.background(&world, toward, 0.0, &WAVELENGTHS).y;
                 assert!(
                     (sent / radiance - 1.0).abs() < 1e-3,
                     "{light}: {sent} {radiance}"

@@ -70,7 +70,8 @@ fn orientation_matches_mitsuba() {
     ] {
         let (world, light) = sky(8, &grey(), more);
         for (direction, expected) in DIRECTIONS.into_iter().zip(expected) {
-            let found = light.background(&world, direction.normalize(), &WAVELENGTHS) / white();
+            let found =
+                light.background(&world, direction.normalize(), 0.0, &WAVELENGTHS) / white();
             assert!(
                 (found - expected).abs().max_element() < 2e-3,
                 "{direction}: {found} {expected}"
@@ -85,7 +86,7 @@ fn seen(world: &SmallWorld, light: &Light, direction: Vec3) -> Vec3 {
     let wavelengths = WavelengthDistribution::new(360.0, 830.0).expect("a range");
     let mean = (0..COUNT).map(|i| {
         let w = wavelengths.sample((i as f32 + 0.5) / COUNT as f32);
-        sensor_response(&w).rgb(light.background(world, direction.normalize(), &w))
+        sensor_response(&w).rgb(light.background(world, direction.normalize(), 0.0, &w))
     });
     // Four wavelengths each.
     mean.sum::<Vec3>() / (4 * COUNT) as f32
@@ -139,7 +140,8 @@ fn small_maps_match_mitsuba() {
         let texels: Vec<_> = (1..=width * height).map(|i| [i as f32; 3]).collect();
         let (world, light) = sky(width, &texels, vec![]);
         for (direction, expected) in DIRECTIONS.into_iter().zip(expected) {
-            let found = light.background(&world, direction.normalize(), &WAVELENGTHS) / white();
+            let found =
+                light.background(&world, direction.normalize(), 0.0, &WAVELENGTHS) / white();
             assert!(
                 (found - expected).abs().max_element() < 2e-3 * expected,
                 "{size:?} {direction}: {found} {expected}"
@@ -283,7 +285,7 @@ fn equal_area_texels_are_where_pbrt_has_them() {
         let (world, light) = sky(SIDE, &texels, mapping);
         let centre = [column, row].map(|i| (i as f32 + 0.5) / SIDE as f32);
         let direction = etalon_math::equal_area::to_direction::<f32>(centre);
-        let seen = (light.background(&world, direction, &WAVELENGTHS) / white()).x;
+        let seen = (light.background(&world, direction, 0.0, &WAVELENGTHS) / white()).x;
         assert!((seen / 1e3 - 1.0).abs() < 1e-4, "{column} {row}: {seen}");
         const COUNT: usize = 128;
         let mut toward = 0.0;
@@ -324,7 +326,7 @@ fn compensation_is_for_receivers_that_scatter() {
             let (sin, cos) = etalon_math::float::sin_cos_turns(turns);
             let d = Vec3::new(sin, 0.2 * (i / 20) as f32 - 0.9, cos).normalize();
             let [all_of_it, rest] = densities(d).map(|density| density.hero());
-            if light.background(&SmallWorld::default(), d, &WAVELENGTHS) != Vec4::ZERO {
+            if light.background(&SmallWorld::default(), d, 0.0, &WAVELENGTHS) != Vec4::ZERO {
                 all += 1;
                 assert!(all_of_it > 0.0, "{d}");
                 left_out += i32::from(rest == 0.0);
@@ -405,5 +407,8 @@ fn power_is_the_mean_radiance() {
             .sample(&world, &from, &WAVELENGTHS, Vec2::splat(0.3))
             .is_none()
     );
-    assert_eq!(black.background(&world, Vec3::X, &WAVELENGTHS), Vec4::ZERO);
+    assert_eq!(
+        black.background(&world, Vec3::X, 0.0, &WAVELENGTHS),
+        Vec4::ZERO
+    );
 }

@@ -113,8 +113,9 @@ fn images_are_the_right_way_around() {
         assert!((found - f64::from(i) - 1.0).abs() < 1e-3, "{i} {found}");
     }
     // Along the middle of a row the image of the sky is larger to the same side.
-    let east =
-        |light: &mut Light, direction: Vec3| light.background(&world, direction, &WAVELENGTHS).y;
+    let east = |light: &mut Light, direction: Vec3| {
+        light.background(&world, direction, 0.0, &WAVELENGTHS).y
+    };
     assert!(east(&mut sky, Vec3::NEG_X) > east(&mut sky, Vec3::X));
     assert!(intensity(&world, &globe, Vec3::NEG_X) > intensity(&world, &globe, Vec3::X));
 }

@@ -12,6 +12,7 @@ fn mistakes_are_refused() {
     };
     let stretched = Value::Transform(DMat4::from_scale(DVec3::new(1.0, 2.0, 1.0)));
     let mut world = SmallWorld::default();
+    world.shutter.close = 1.0;
     add_file(&mut world, "nan.pfm", 2, &[[f32::NAN; 3]; 6]);
     let file = |name: &str| vec![("filename", Value::String(name.into()))];
     for (plugin, properties, expected) in [
@@ -52,7 +53,7 @@ fn mistakes_are_refused() {
         ("envmap", vec![], "needs the parameter `filename`"),
         ("envmap", file("none.exr"), "no file `none.exr`"),
         ("envmap", file("nan.pfm"), "column 0 of row 0"),
-        ("timed_sunsky", vec![], "not built yet"),
+        ("timed_sunsky", number("hour", 12.0), "no parameter `hour`"),
         ("sunsky", number("turbidity", 0.5), "cannot be 0.5"),
         ("sunsky", number("hour", 25.0), "cannot be 25"),
         ("sun", vec![], "sun"),

@@ -148,7 +148,10 @@ fn sampled_density_equals_hit_density() {
             (SamplePdf::Continuous(density), None) => {
                 let hit = set.background_density(&from, sample.direction);
                 assert!((density.hero() / hit.hero() - 1.0).abs() < 1e-3);
-                (hit, set.background(&world, sample.direction, &WAVELENGTHS))
+                (
+                    hit,
+                    set.background(&world, sample.direction, 0.0, &WAVELENGTHS),
+                )
             }
             other => panic!("{other:?}"),
         };

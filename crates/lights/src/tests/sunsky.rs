@@ -8,27 +8,31 @@ use etalon_params::DVec3;
 
 const VALUES: &str = include_str!("sunsky_values.txt");
 
-const LAMBDA: Wavelengths = Wavelengths {
+pub(super) const LAMBDA: Wavelengths = Wavelengths {
     lambda: Vec4::new(330.0, 450.0, 555.0, 690.0),
     density: Vec4::ONE,
 };
 
-fn parsed(text: &str) -> Vec<f64> {
+pub(super) fn parsed(text: &str) -> Vec<f64> {
     text.split_whitespace()
         .map(|word| word.parse().expect("a number"))
         .collect()
 }
 
-fn vector(text: &str) -> DVec3 {
+pub(super) fn vector(text: &str) -> DVec3 {
     DVec3::from_slice(&parsed(text))
 }
 
-fn sunsky(world: &mut SmallWorld, properties: Vec<(&str, Value)>) -> SunSky {
-    let light = read(world, "sunsky", properties).expect("a sky without mistakes");
+pub(super) fn sky(world: &mut SmallWorld, plugin: &str, properties: Vec<(&str, Value)>) -> SunSky {
+    let light = read(world, plugin, properties).expect("a sky without mistakes");
     match light.light {
-        Light::SunSky(sky) => sky,
+        Light::SunSky(sky) | Light::TimedSunSky(sky) => sky,
         other => panic!("{other:?}"),
     }
+}
+
+fn sunsky(world: &mut SmallWorld, properties: Vec<(&str, Value)>) -> SunSky {
+    sky(world, "sunsky", properties)
 }
 
 #[test]
@@ -71,7 +75,7 @@ fn radiances_are_mitsubas() {
             (sunsky(&mut world, properties), fields[2], fields[3])
         };
         let direction = vector(direction).as_vec3();
-        let ours = sky.background(&world, direction, &LAMBDA);
+        let ours = sky.background(&world, direction, 0.0, &LAMBDA);
         let expected: Vec<f32> = parsed(expected).iter().map(|&x| x as f32).collect();
         let expected = Vec4::from_slice(&expected);
         // Mitsuba's irradiance of the sun is a table that ends 2° above the horizon.
@@ -107,42 +111,53 @@ fn samples_have_the_density_of_their_direction() {
             ("sun_aperture", Value::Float(8.0)),
         ];
         let sky = sunsky(&mut world, properties);
-        let from = receiver(Vec3::ZERO, Vec3::Z);
-        let mut random = numbers(5);
-        // The sampled irradiance is that of directions chosen evenly, within four standard errors of either.
-        let (mut sums, count) = ([[0.0f64; 2]; 2], 200_000);
-        for _ in 0..count {
-            let u = random.next_2d();
-            if let Some(sample) = sky.sample(&world, &from, &LAMBDA, u) {
-                let density = sky.background_density(&from, sample.direction).hero();
-                let sampled = sample.chance.lanes().x;
-                assert!(
-                    (density / sampled - 1.0).abs() < 1e-3,
-                    "{} {density} {sampled}",
-                    sample.direction
-                );
-                let value = f64::from(sample.radiance.y / sampled);
-                sums[0][0] += value;
-                sums[0][1] += value * value;
-            }
-            let z = u.x;
-            let (y, x) = etalon_math::float::sin_cos(core::f32::consts::TAU * u.y);
-            let r = (1.0 - z * z).sqrt();
-            let even = sky
-                .background(&world, Vec3::new(r * x, r * y, z), &LAMBDA)
-                .y;
-            let value = f64::from(even) * core::f64::consts::TAU;
-            sums[1][0] += value;
-            sums[1][1] += value * value;
-        }
-        let n = f64::from(count);
-        let [a, b] = sums.map(|[sum, squares]| {
-            let mean = sum / n;
-            (mean, (squares / n - mean * mean) / n)
-        });
-        let z = (a.0 - b.0) / (a.1 + b.1).sqrt();
-        assert!(z.abs() < 4.0, "{theta}: {} instead of {}", a.0, b.0);
+        let variances = irradiances_agree(&world, &sky, 0.0);
         // Sampling by brightness is better by far, unless the sun sets in red.
-        assert!(theta > 1.5 || a.1 < 0.5 * b.1, "{theta}: {} {}", a.1, b.1);
+        let [by_brightness, evenly] = variances;
+        assert!(
+            theta > 1.5 || by_brightness < 0.5 * evenly,
+            "{theta}: {variances:?}"
+        );
     }
+}
+
+/// Checks the densities of samples at a moment, and that the sampled irradiance is that of directions chosen evenly, within
+/// four standard errors of either; the variances of both.
+pub(super) fn irradiances_agree(world: &SmallWorld, sky: &SunSky, time: f32) -> [f64; 2] {
+    let mut from = receiver(Vec3::ZERO, Vec3::Z);
+    from.time = time;
+    let mut random = numbers(5);
+    let (mut sums, count) = ([[0.0f64; 2]; 2], 200_000);
+    for _ in 0..count {
+        let u = random.next_2d();
+        if let Some(sample) = sky.sample(world, &from, &LAMBDA, u) {
+            let density = sky.background_density(&from, sample.direction).hero();
+            let sampled = sample.chance.lanes().x;
+            assert!(
+                (density / sampled - 1.0).abs() < 1e-3,
+                "{} {density} {sampled}",
+                sample.direction
+            );
+            let value = f64::from(sample.radiance.y / sampled);
+            sums[0][0] += value;
+            sums[0][1] += value * value;
+        }
+        let z = u.x;
+        let (y, x) = etalon_math::float::sin_cos(core::f32::consts::TAU * u.y);
+        let r = (1.0 - z * z).sqrt();
+        let even = sky
+            .background(world, Vec3::new(r * x, r * y, z), time, &LAMBDA)
+            .y;
+        let value = f64::from(even) * core::f64::consts::TAU;
+        sums[1][0] += value;
+        sums[1][1] += value * value;
+    }
+    let n = f64::from(count);
+    let [a, b] = sums.map(|[sum, squares]| {
+        let mean = sum / n;
+        (mean, (squares / n - mean * mean) / n)
+    });
+    let z = (a.0 - b.0) / (a.1 + b.1).sqrt();
+    assert!(z.abs() < 4.0, "{time}: {} instead of {}", a.0, b.0);
+    [a.1, b.1]
 }

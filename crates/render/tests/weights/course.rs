@@ -260,8 +260,8 @@ impl Course {
                 )
             }
             (LightKind::Sky, _) => {
-                let radiance = world.lights().background(-away, &self.wavelengths);
-                (radiance, world.background_emission_density(-away), 1.0)
+                let radiance = world.lights().background(-away, 0.0, &self.wavelengths);
+                (radiance, world.background_emission_density(-away, 0.0), 1.0)
             }
             _ => return None,
         };

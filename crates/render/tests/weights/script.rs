@@ -212,14 +212,14 @@ impl<W: World> Lights for Script<'_, W> {
     fn has_background(&self) -> bool {
         true
     }
-    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+    fn background(&self, direction: Vec3, time: f32, wavelengths: &Wavelengths) -> Vec4 {
         let sky = self.course.start.origin == LightKind::Sky
             && direction.dot(-self.course.start.ray.direction) > 0.9999;
         if !sky {
             return Vec4::ZERO;
         }
         self.shining(
-            self.world.lights().background(direction, wavelengths),
+            (self.world.lights()).background(direction, time, wavelengths),
             wavelengths,
         )
     }
@@ -320,7 +320,7 @@ impl<'s, W: World> World for Script<'s, W> {
             ),
             (LightKind::Sky, _) => (
                 None,
-                world.lights().background(direction, wavelengths),
+                (world.lights()).background(direction, from.time, wavelengths),
                 SamplePdf::Continuous(world.background_density(from, direction)),
                 1.0,
             ),
@@ -386,8 +386,8 @@ impl<'s, W: World> World for Script<'s, W> {
     ) -> EmissionPdf {
         self.world.emission_density(light, direction, cos, time)
     }
-    fn background_emission_density(&self, direction: Vec3) -> EmissionPdf {
-        self.world.background_emission_density(direction)
+    fn background_emission_density(&self, direction: Vec3, time: f32) -> EmissionPdf {
+        self.world.background_emission_density(direction, time)
     }
     fn light_sample_density(&self, from: &LightSampleContext, start: &Emission) -> f32 {
         self.world.light_sample_density(from, start)

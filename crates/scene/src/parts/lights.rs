@@ -27,9 +27,9 @@ impl Lights for Parts {
     }
 
     #[inline]
-    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4 {
+    fn background(&self, direction: Vec3, time: f32, wavelengths: &Wavelengths) -> Vec4 {
         self.lights
-            .background(&self.space.lookup, direction, wavelengths)
+            .background(&self.space.lookup, direction, time, wavelengths)
     }
 
     #[inline]

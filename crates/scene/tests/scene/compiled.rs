@@ -138,7 +138,10 @@ fn every_light_is_its_shapes_own() {
         assert_eq!(world.lights().emitted(&at, Vec3::Z, &LANES), Vec4::ZERO);
     }
     assert!(world.lights().has_background());
-    assert_eq!(world.lights().background(Vec3::X, &LANES), Vec4::splat(3.0));
+    assert_eq!(
+        world.lights().background(Vec3::X, 0.0, &LANES),
+        Vec4::splat(3.0)
+    );
 }
 
 #[test]

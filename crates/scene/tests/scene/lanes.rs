@@ -47,7 +47,7 @@ fn compare<F: Lane>(world: &Scene, reach: f32, random: &mut impl Sampler) {
     let (seen, density) = LaneShading::background(lanes, &from, direction, &waves[..F::WIDTH]);
     for i in 0..F::WIDTH {
         let receiver = from.at_lane(i);
-        let radiance = Lights::background(world.lights(), along(i), &LANES);
+        let radiance = Lights::background(world.lights(), along(i), 0.0, &LANES);
         assert_eq!(seen.at_lane(i), radiance);
         let alone = world.background_density(&receiver, along(i)).lanes().x;
         assert_eq!(density.lane(i), alone);

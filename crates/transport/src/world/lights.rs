@@ -19,8 +19,8 @@ pub trait Lights: Sync {
     /// Whether the scene has any light at infinity that a ray can hit.
     fn has_background(&self) -> bool;
 
-    /// Radiance of the lights at infinity seen along the unit vector `direction`.
-    fn background(&self, direction: Vec3, wavelengths: &Wavelengths) -> Vec4;
+    /// Radiance of the lights at infinity seen along the unit vector `direction` at a moment within the shutter interval.
+    fn background(&self, direction: Vec3, time: f32, wavelengths: &Wavelengths) -> Vec4;
 
     /// A direction toward one light, with a density that excludes the choice of the light. For estimators that sample
     /// every light.
