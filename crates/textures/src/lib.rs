@@ -26,6 +26,7 @@ pub mod picture;
 pub mod pixels;
 pub mod procedural;
 pub mod reader;
+mod recalled;
 pub mod recovered;
 mod spectra;
 pub mod texture;

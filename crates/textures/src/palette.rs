@@ -4,6 +4,7 @@
 //! 16 million pixels has some hundred thousand colours: their spectra are a small part of it, and look-ups find them in a cache.
 
 use crate::coded::{At, Coded, triple};
+use crate::recalled::is_heavy;
 use etalon_spectrum::RgbCoefficients;
 
 /// An image of colours.
@@ -25,15 +26,11 @@ fn joined([low, middle, high]: [u8; 3]) -> usize {
 }
 
 impl Palette {
-    /// The colours of three channels.
-    pub(crate) fn new(pixels: Coded<u8>) -> Self {
-        let Coded {
-            samples: mut numbers,
-            values,
-            ..
-        } = pixels;
+    /// The colours of three channels; the pixels themselves, if there are so many colours that their spectra would
+    /// weigh too much.
+    pub(crate) fn new(pixels: Coded<u8>) -> Result<Self, Coded<u8>> {
         let mut occurs = vec![0_u64; (1 << 24) / WORD];
-        for pixel in numbers.chunks_exact(3) {
+        for pixel in pixels.samples.chunks_exact(3) {
             let colour = joined([pixel[0], pixel[1], pixel[2]]);
             occurs[colour / WORD] |= 1 << (colour % WORD);
         }
@@ -44,6 +41,14 @@ impl Palette {
             before.push(count);
             count += word.count_ones();
         }
+        if is_heavy(count as usize, &pixels) {
+            return Err(pixels);
+        }
+        let Coded {
+            samples: mut numbers,
+            values,
+            ..
+        } = pixels;
         let mut colours = Vec::with_capacity(count as usize);
         for (index, word) in occurs.iter().enumerate() {
             let mut rest = *word;
@@ -60,7 +65,7 @@ impl Palette {
             let number = before[colour / WORD] + lower.count_ones();
             pixel.copy_from_slice(&number.to_le_bytes()[..3]);
         }
-        Self { numbers, colours }
+        Ok(Self { numbers, colours })
     }
 
     /// Memory of pixels and colours (bytes).

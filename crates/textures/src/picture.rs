@@ -3,6 +3,7 @@
 use crate::coded::{At, Coded};
 use crate::palette::Palette;
 use crate::pixels::{Image, Pixels, Recent, Texels, Values, mean, mean_colour};
+use crate::recalled::{Recalled, is_heavy};
 use crate::recovered::luminance;
 use etalon_transport::SpectrumKind;
 use glam::UVec2;
@@ -35,7 +36,7 @@ pub struct Picture {
 /// Texels, in the form in which they are looked up.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stored {
-    /// Floats, and colours of 16 bits, most of which occur once.
+    /// Floats, and colours of 16 bits in small pictures.
     Floats(Texels),
     /// Numbers of 8 bits.
     Bytes(Coded<u8>),
@@ -47,6 +48,10 @@ pub enum Stored {
     RawWords(Coded<u16>),
     /// Colours of 8 bits.
     Palette(Palette),
+    /// The same in large pictures with too many of them.
+    RecalledBytes(Recalled<u8>),
+    /// Colours of 16 bits in large pictures.
+    RecalledWords(Recalled<u16>),
 }
 
 /// Asks texels: of numbers, of three raw channels, of the coefficients of colours, and of coefficients with a factor.
@@ -61,6 +66,8 @@ macro_rules! ask {
             Stored::RawWords($raw) => $b,
             Stored::Floats(Texels::Colour($colour)) => $c,
             Stored::Palette($colour) => $c,
+            Stored::RecalledBytes($colour) => $c,
+            Stored::RecalledWords($colour) => $c,
             Stored::Floats(Texels::Bright($bright)) => $d,
         }
     };
@@ -88,7 +95,10 @@ impl Picture {
                     match (bytes.channels, raw) {
                         (1, _) => Stored::Bytes(bytes),
                         (_, true) => Stored::RawBytes(bytes),
-                        (_, false) => Stored::Palette(Palette::new(bytes)),
+                        (_, false) => match Palette::new(bytes) {
+                            Ok(palette) => Stored::Palette(palette),
+                            Err(pixels) => Stored::RecalledBytes(Recalled(pixels)),
+                        },
                     },
                 )
             }
@@ -99,6 +109,9 @@ impl Picture {
                     match (words.channels, raw) {
                         (1, _) => Stored::Words(words),
                         (_, true) => Stored::RawWords(words),
+                        (_, false) if is_heavy(words.samples.len() / 3, &words) => {
+                            Stored::RecalledWords(Recalled(words))
+                        }
                         (_, false) => {
                             let mut recent = Recent::new();
                             let texels = texels(size).map(|i| recent.coefficients(words.at(i)));
@@ -117,6 +130,8 @@ impl Picture {
             Stored::Bytes(bytes) | Stored::RawBytes(bytes) => bytes.bytes(),
             Stored::Words(words) | Stored::RawWords(words) => words.bytes(),
             Stored::Palette(palette) => palette.bytes(),
+            Stored::RecalledBytes(Recalled(bytes)) => bytes.bytes(),
+            Stored::RecalledWords(Recalled(words)) => words.bytes(),
         }
     }
 }

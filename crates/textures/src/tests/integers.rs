@@ -3,7 +3,7 @@
 use super::LAMBDA;
 use crate::decode::ImageChannel;
 use crate::picture::{FilePixels, Picture, Stored};
-use crate::pixels::{Image, Pixels, Values};
+use crate::pixels::{Image, Pixels, Texels, Values};
 use crate::{Bitmap, Filter, UvTransform, Wrap};
 use etalon_images::raster_file;
 use etalon_transport::SpectrumKind;
@@ -105,6 +105,52 @@ fn integers_are_looked_up_as_floats_are() {
                     assert_eq!(all(&a, uv), all(&b, uv), "{channels} {greatest} {raw} {uv}");
                 }
             }
+        }
+    }
+}
+
+/// A large picture of nothing but different colours keeps the memory of its file; a few colours keep their spectra. Mutants
+/// rejected: a palette for either; channels in another order.
+#[test]
+fn pictures_of_too_many_colours_are_looked_up_in_their_samples() {
+    let size = UVec2::new(1280, 1200);
+    let count = (size.x * size.y) as usize;
+    for (greatest, few) in [(255_u16, false), (65535, false), (255, true)] {
+        let mut bytes = format!("P6 {} {} {greatest}\n", size.x, size.y).into_bytes();
+        let sample = |i: usize, channel: usize| {
+            let i = if few { i % 1000 } else { i } as u32;
+            // An odd factor permutes the numbers of 24 bits, which are the colours.
+            (i.wrapping_mul(0x9e_3779) >> (8 * channel)) & 255
+        };
+        for i in 0..count {
+            for channel in 0..3 {
+                match greatest {
+                    255 => bytes.push(sample(i, channel) as u8),
+                    _ => bytes.extend([sample(i, channel) as u8, sample(i, 2 - channel) as u8]),
+                }
+            }
+        }
+        let (_, pixels, _) =
+            FilePixels::decode(&mut std::io::Cursor::new(&bytes), false, None, "x")
+                .expect("pixels");
+        let stored = Picture::new(size, pixels, false, SpectrumKind::Reflectance);
+        let recalled = matches!(
+            stored.stored,
+            Stored::RecalledBytes(_) | Stored::RecalledWords(_)
+        );
+        assert_eq!(recalled, !few);
+        assert!(stored.bytes() < bytes.len() * 102 / 100);
+        let floats = floats(&bytes, false, false);
+        let coefficients = |picture: &Picture, i: usize| {
+            crate::picture::ask!(&picture.stored,
+                _numbers => unreachable!("an image of colours"),
+                _raw => unreachable!("an image of colours"),
+                colours => crate::coded::At::<[f32; 3]>::at(colours, i),
+                _bright => unreachable!("an image of colours")
+            )
+        };
+        for i in (0..count).step_by(997) {
+            assert_eq!(coefficients(&stored, i), coefficients(&floats, i), "{i}");
         }
     }
 }
