@@ -6,6 +6,7 @@ use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
 use crate::distribution::Distribution;
+use crate::field::Field;
 use crate::forward::Forward;
 use crate::guided::Guided;
 use crate::metropolis::mmlt::Multiplexed;
@@ -199,6 +200,7 @@ integrators! {
     "forward" => Forward: |p| Some(Forward::from_params(p));
     "ao" => AmbientOcclusion: |p| Some(AmbientOcclusion::from_params(p));
     "aov" => Aov: Aov::from_params;
+    "field" => Field: Field::from_params;
     "photonmap" => PhotonMapper: |p| Some(PhotonMapper::from_params(p));
     "sppm" => Progressive: |p| Some(Progressive::from_params(p));
     "vcm" => ConnectionMerging: |p| Some(ConnectionMerging::from_params(p));
