@@ -1,26 +1,26 @@
-//! Clouds of ellipsoids against quadratic equations, and their shells.
+//! Clouds of ellipsoids against quadratic equations.
 
 use crate::description::make;
-use crate::solids::{built, number, vector};
+use crate::solids::{built, number};
 use crate::things::{Random, geometry_of};
-use etalon_geometry::{Geometry, Shape};
+use etalon_geometry::Shape;
 use etalon_math::float64::{exp, ln};
-use etalon_params::{Class, DMat4, FileId, Node, Span, Spanned, Value};
+use etalon_params::{DMat4, Value};
 use etalon_transport::{Ray, ShapeId, Shapes};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use std::sync::Arc;
 
-const COLUMNS: &str = "vertex_scale:3,vertex_rot:4";
+pub(crate) const COLUMNS: &str = "vertex_scale:3,vertex_rot:4";
 
 /// A row of a file.
 #[derive(Clone, Copy, Debug)]
-struct Row {
-    center: [f32; 3],
-    scale: [f32; 3],
+pub(crate) struct Row {
+    pub(crate) center: [f32; 3],
+    /// Logarithms.
+    pub(crate) scale: [f32; 3],
     /// The real part first; of any length.
-    rotation: [f32; 4],
+    pub(crate) rotation: [f32; 4],
 }
 
 fn row() -> impl Strategy<Value = Row> {
@@ -43,12 +43,12 @@ fn text(numbers: &[f32]) -> String {
     words.join(" ")
 }
 
-fn file(columns: &str, rows: &[String]) -> (&'static str, Value) {
+pub(crate) fn file(columns: &str, rows: &[String]) -> (&'static str, Value) {
     let contents = format!("{columns}|{}", rows.join(";"));
     ("filename", Value::String(contents))
 }
 
-fn cloud(rows: &[Row]) -> (&'static str, Value) {
+pub(crate) fn cloud(rows: &[Row]) -> (&'static str, Value) {
     let text = |r: &Row| text(&[&r.center[..], &r.scale, &r.rotation].concat());
     file(COLUMNS, &rows.iter().map(text).collect::<Vec<_>>())
 }
@@ -63,7 +63,7 @@ fn turned(rotation: [f32; 4], v: DVec3) -> DVec3 {
 
 impl Row {
     /// Its centre and the ends of its half axes.
-    fn axes(&self, factor: f64, to_world: &DAffine3) -> (DVec3, [DVec3; 3]) {
+    pub(crate) fn axes(&self, factor: f64, to_world: &DAffine3) -> (DVec3, [DVec3; 3]) {
         let axis = |i: usize| {
             let own = DVec3::AXES[i] * exp(f64::from(self.scale[i])) * factor;
             to_world.transform_vector3(turned(self.rotation, own))
@@ -253,151 +253,6 @@ fn attributes_are_of_the_ellipsoid() {
     }
 }
 
-fn shells(properties: Vec<(&str, Value)>) -> Shape {
-    built("ellipsoidsmesh", properties)
-}
-
-fn mesh(shape: &Shape) -> &etalon_geometry::shapes::mesh::Mesh {
-    match shape {
-        Shape::Mesh(mesh) => mesh,
-        _ => panic!("no mesh"),
-    }
-}
-
-/// The planes of an icosahedron touch the ellipsoid, those of the others are as far as their middles are; all are closed and
-/// turned outward, mirrored or not.
-#[test]
-fn shells_go_around() {
-    // A unit sphere; volumes by the divergence theorem.
-    let unit = || file(COLUMNS, &["0 0 0 0 0 0 1 0 0 0".to_owned()]);
-    // The circumscribed icosahedron: 10 (7 − 3 √5) √3, as its inradius is φ² / (2 √3) of an edge.
-    let around = 10.0 * (7.0 - 3.0 * 5.0_f64.sqrt()) * 3.0_f64.sqrt();
-    // Of a cube the middles of half faces, at √11/3 of half an edge, are on the sphere.
-    let cube = (6.0 / 11.0_f64.sqrt()).powi(3);
-    let cases = [
-        ("ico_sphere", 20, around),
-        ("box", 12, cube),
-        ("uv_sphere", 72, f64::NAN),
-    ];
-    for (name, triangles, volume) in cases {
-        for scale in [1.0, -1.0] {
-            let matrix = DMat4::from_scale(DVec3::new(scale, 1.0, 1.0));
-            let shape = shells(vec![
-                unit(),
-                number("extent", 1.0),
-                ("shell", Value::String(name.into())),
-                ("to_world", Value::Transform(matrix)),
-            ]);
-            assert!(!shape.is_open(), "{name}");
-            let mesh = mesh(&shape);
-            assert_eq!(mesh.triangle_count(), triangles, "{name}");
-            let (mut found, mut nearest) = (0.0, f64::INFINITY);
-            for i in 0..triangles as u32 {
-                let [a, b, c] = mesh.corners(i).map(Vec3::as_dvec3);
-                found += a.dot(b.cross(c)) / 6.0;
-                nearest = nearest.min(((a + b + c) / 3.0).length());
-            }
-            assert!((nearest - 1.0).abs() < 1e-6, "{name}: {nearest}");
-            let exact = volume.is_nan() || (found - volume).abs() < 1e-5;
-            // Between the ball's and that of a cube around it.
-            assert!(exact && (4.18..8.0).contains(&found), "{name}: {found}");
-            // The outside is outside.
-            let geometry = geometry_of([shape]);
-            let mut random = Random(3);
-            for _ in 0..50 {
-                let ray = Ray::new(Vec3::ZERO, random.direction(), 0.0);
-                let hit = geometry.intersect(&ray).expect("from within");
-                assert!(geometry.vertex(&ray, &hit).normal.dot(ray.direction) > 0.0);
-            }
-        }
-    }
-}
-
-/// A shell around an ellipsoid is that around the unit sphere, mapped.
-#[test]
-fn shells_are_mapped() {
-    let row = Row {
-        center: [0.3, -0.2, 0.5],
-        scale: [-1.0, -2.0, -3.0],
-        rotation: [0.3, 0.5, -0.4, 0.8],
-    };
-    let unit = file(COLUMNS, &["0 0 0 0 0 0 1 0 0 0".to_owned()]);
-    let of_unit = shells(vec![unit, number("extent", 1.0)]);
-    let mapped = shells(vec![cloud(&[row, row])]);
-    let (center, axes) = row.axes(3.0, &DAffine3::IDENTITY);
-    for i in 0..40 {
-        let wanted = mesh(&of_unit).corners(i % 20).map(|v| {
-            let v = v.as_dvec3();
-            center + axes[0] * v.x + axes[1] * v.y + axes[2] * v.z
-        });
-        for (found, wanted) in mesh(&mapped).corners(i).into_iter().zip(wanted) {
-            assert!((found.as_dvec3() - wanted).length() < 1e-6);
-        }
-    }
-}
-
-fn nested(plugin: &str, properties: Vec<(&str, Value)>) -> (&'static str, Value) {
-    const HERE: Span = Span {
-        file: FileId(0),
-        start: 0,
-        end: 1,
-    };
-    let properties = properties.into_iter();
-    let node = Node {
-        class: Class::Shape,
-        plugin: Spanned {
-            value: plugin.into(),
-            span: HERE,
-        },
-        id: None,
-        span: HERE,
-        properties: properties
-            .map(|(name, value)| etalon_params::Property::new(name, HERE, value, HERE))
-            .collect(),
-    };
-    ("shell", Value::Object(Arc::new(node)))
-}
-
-/// A mesh of the scene's is a shell; what is none, or does not go around the origin, is refused.
-#[test]
-fn meshes_are_shells() {
-    let unit = || file(COLUMNS, &["0 0 0 0 0 0 1 0 0 0".to_owned()]);
-    let cube = shells(vec![unit(), nested("cube", vec![]), number("extent", 1.0)]);
-    let geometry: Geometry = geometry_of([cube]);
-    let ray = Ray::new(Vec3::new(0.1, 0.2, 5.0), -Vec3::Z, 0.0);
-    let t = geometry.intersect(&ray).expect("a cube").t;
-    let half = 3.0 / 11.0_f32.sqrt();
-    assert!((t - 5.0 + half).abs() < 1e-5, "{t}");
-    let refused = |shell: (&'static str, Value), needle: &str| {
-        let (shape, messages) = make("ellipsoidsmesh", vec![unit(), shell]);
-        assert!(shape.is_none() && messages.contains(needle), "{messages}");
-    };
-    refused(nested("sphere", vec![]), "`sphere` is no mesh");
-    refused(nested("spere", vec![]), "did you mean `sphere`");
-    refused(
-        nested("ply", vec![("filename", Value::String("empty".into()))]),
-        "a shell goes around the origin",
-    );
-    refused(
-        nested("ply", vec![("filename", Value::String("good".into()))]),
-        "a shell goes around the origin",
-    );
-    let (_, messages) = make(
-        "ellipsoidsmesh",
-        vec![
-            unit(),
-            nested("cube", vec![vector("center", 0.0, 0.0, 1.0)]),
-        ],
-    );
-    assert!(messages.contains("no parameter `center`"), "{messages}");
-    let bad = ("shell", Value::String("ball".into()));
-    let (_, messages) = make("ellipsoidsmesh", vec![unit(), bad]);
-    assert!(
-        messages.contains("`ball`") && messages.contains("uv_sphere"),
-        "{messages}"
-    );
-}
-
 #[test]
 fn mistakes() {
     let refused = |properties: Vec<(&str, Value)>, needle: &str| {
@@ -441,11 +296,6 @@ fn mistakes() {
             "{messages}"
         );
     }
-    let (_, messages) = make("ellipsoids", vec![flat(), nested("cube", vec![])]);
-    assert!(
-        messages.contains("`shell`") || messages.contains("shape"),
-        "{messages}"
-    );
 }
 
 /// A radius so small counts as 10⁻⁶.

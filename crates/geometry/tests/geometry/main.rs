@@ -21,6 +21,7 @@ mod packets;
 mod plane;
 mod reintersection;
 mod sampling;
+mod shells;
 mod solids;
 mod things;
 mod touching;
