@@ -272,6 +272,10 @@ impl<W: World> World for Faulty<'_, W> {
         self
     }
 
+    fn moment(&self, raster: Vec2, u: f32) -> f32 {
+        self.world.moment(raster, u)
+    }
+
     fn transmittance(
         &self,
         ray: &Ray,

@@ -104,7 +104,7 @@ impl<S: MeasuredSurface> AnyCamera<S> {
         window: FilmWindow,
         shapes: &mut SensorShapes<'_, S>,
     ) -> Option<(Self, Shutter)> {
-        let shutter = Shutter::from_params(params);
+        let shutter = Shutter::from_params(params, window.size.y);
         let camera = Self::read(params, window, &shutter, shapes);
         params.children(Class::Medium);
         params.children(Class::Film);

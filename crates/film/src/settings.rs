@@ -169,8 +169,7 @@ fn formats(params: &Params<'_>) -> (PixelFormat, FileFormat) {
             let first = names
                 .iter()
                 .find(|name| name.eq_ignore_ascii_case(first.trim()));
-            let message =
-                "of a list of formats the first counts: the integrator `multichannel` is not built";
+            let message = "of a list of formats the first counts: it is that of the picture, beside which further ones keep all their channels";
             note(params, "pixel_format", message);
             first.copied().unwrap_or_else(|| {
                 params.refuse("pixel_format", list, &names.join(", "));

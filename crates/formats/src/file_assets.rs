@@ -162,6 +162,7 @@ impl Assets for FileAssets {
         let bytes = gzip::plain(bytes, self.limit).map_err(|reason| unreadable(name, &reason))?;
         let mesh = match format {
             MeshFormat::Obj => obj::parse(&bytes),
+            MeshFormat::PlyPoints => ply::parse_points(&bytes),
             _ => ply::parse(&bytes),
         };
         mesh.map_err(|error| AssetError {
@@ -187,7 +188,7 @@ fn looks_like_another(format: MeshFormat, bytes: &[u8]) -> Option<String> {
         MeshFormat::Obj | MeshFormat::Serialized { .. } if is_ply => {
             "this is a PLY file: use the shape `ply`"
         }
-        MeshFormat::Obj | MeshFormat::Ply if is_serialized => {
+        MeshFormat::Obj | MeshFormat::Ply | MeshFormat::PlyPoints if is_serialized => {
             "this is one of Mitsuba's serialized files: use the shape `serialized`"
         }
         MeshFormat::Ply | MeshFormat::Serialized { .. } if may_be_obj => {

@@ -207,7 +207,6 @@ impl Shapes for Geometry {
         range: [f32; 2],
     ) -> Option<Vec3> {
         self.shape(shape)
-            .mesh()?
             .attribute(name, primitive, parameters, range)
     }
 }

@@ -3,6 +3,7 @@
 //! To add a shape, write its file and add one line to the list.
 
 pub(crate) mod analytic;
+mod attributes;
 pub mod bilinear;
 pub mod bspline_curve;
 pub mod cone;
@@ -12,6 +13,7 @@ mod curve;
 pub mod curves;
 pub mod cylinder;
 pub mod disk;
+pub mod ellipsoids;
 pub mod extrusion;
 pub mod implicit;
 mod lane_shapes;
@@ -40,6 +42,7 @@ use csg::Csg;
 use curves::Curves;
 use cylinder::Cylinder;
 use disk::Disk;
+use ellipsoids::{Ellipsoids, shells};
 use etalon_math::DirectionCone;
 use etalon_params::Params;
 use etalon_transport::{Build, LightSampleContext, SampledPoint, SurfacePoint};
@@ -98,6 +101,7 @@ shapes! {
         "obj" => file_mesh::obj,
         "ply" => file_mesh::ply,
         "serialized" => file_mesh::serialized,
+        "ellipsoidsmesh" => shells::mesh,
         "cube" => |params, _| cube::from_params(params),
         "bicubic" => |params, _| net::bicubic(params),
         "curve" => |params, _| curve::from_params(params),
@@ -122,6 +126,8 @@ shapes! {
         "quadric" => |params, _| Quadric::from_params(params),
         "ellipsoid" => |params, _| Quadric::ellipsoid(params),
     }
+    /// A cloud of ellipsoids.
+    Ellipsoids(Ellipsoids) { "ellipsoids" => Ellipsoids::from_params, }
     /// The zero set of a function, in a box.
     Implicit(Placed<Implicit>) {
         "implicit" => |params, _| Implicit::from_params(params),

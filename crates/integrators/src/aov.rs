@@ -255,7 +255,8 @@ impl Integrator for Aov {
     one_by_one!();
 }
 
-fn evaluate<W: World, S: Sampler>(
+/// The value of a variable where a ray meets a surface: three numbers, or the same one three times.
+pub(crate) fn evaluate<W: World, S: Sampler>(
     variable: Variable,
     world: &W,
     ray: &Ray,

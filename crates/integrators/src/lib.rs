@@ -12,6 +12,7 @@ pub mod bdpt;
 pub mod depth;
 pub mod direct;
 pub mod distribution;
+pub mod field;
 pub mod forward;
 pub mod guided;
 pub mod list;

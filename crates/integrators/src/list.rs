@@ -6,6 +6,7 @@ use crate::bdpt::Bidirectional;
 use crate::depth::Depth;
 use crate::direct::Direct;
 use crate::distribution::Distribution;
+use crate::field::Field;
 use crate::forward::Forward;
 use crate::guided::Guided;
 use crate::metropolis::mmlt::Multiplexed;
@@ -121,7 +122,8 @@ macro_rules! integrators {
                         .then(|| capabilities.diffusion_unseen(&seeing_diffusion()));
                     let endless = capabilities.endless_lit().filter(|_| I::FOLLOWS_LIGHT);
                     let one_way = capabilities.seen_one_way().filter(|_| I::FOLLOWS_LIGHT);
-                    let unseen = unseen.into_iter().chain(diffusion).flatten().chain(endless).chain(one_way);
+                    let rows = capabilities.rows_in_turn().filter(|_| I::FOLLOWS_LIGHT);
+                    let unseen = unseen.into_iter().chain(diffusion).flatten().chain(endless).chain(one_way).chain(rows);
                     unseen.chain(integrator.incompatibilities(capabilities)).collect()
                 }
                 match self {
@@ -199,6 +201,7 @@ integrators! {
     "forward" => Forward: |p| Some(Forward::from_params(p));
     "ao" => AmbientOcclusion: |p| Some(AmbientOcclusion::from_params(p));
     "aov" => Aov: Aov::from_params;
+    "field" => Field: Field::from_params;
     "photonmap" => PhotonMapper: |p| Some(PhotonMapper::from_params(p));
     "sppm" => Progressive: |p| Some(Progressive::from_params(p));
     "vcm" => ConnectionMerging: |p| Some(ConnectionMerging::from_params(p));

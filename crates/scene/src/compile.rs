@@ -100,8 +100,8 @@ pub fn compile_with(
         mut camera,
         film,
         sampler,
+        shutter,
         responses,
-        ..
     } = sensor?;
     surfaces
         .required_attributes
@@ -160,8 +160,15 @@ pub fn compile_with(
         .or_else(|| LightSamplerKind::named(named))
         .unwrap_or_default();
     let lights = LightSet::new(lights, &lookup, bounds, kind);
-    let scenes =
-        Scene::new(camera, lookup, surfaces.materials, lights, media).with_sensors(responses);
+    let scenes = Scene::new(
+        camera,
+        lookup,
+        surfaces.materials,
+        lights,
+        media,
+        shutter.rolling,
+    )
+    .with_sensors(responses);
     Some(Compiled {
         scene: scenes.first()?.clone(),
         sensor: Arc::clone(sensor_node?),

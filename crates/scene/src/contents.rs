@@ -82,6 +82,7 @@ impl Scene {
             endless: self.parts.space.lookup.geometry.is_endless()
                 && self.parts.lights.has_infinite(),
             narrow_filter: false,
+            rolling: self.parts.rolling.is_some(),
             one_way: self.parts.materials.iter().any(Material::is_one_way),
             classic: self.parts.materials.iter().any(Material::is_classic),
         }

@@ -13,12 +13,14 @@ use etalon_bsdf::Material;
 use etalon_cameras::AnyCamera;
 use etalon_lights::LightSet;
 use etalon_spectrum::Sensor;
-use etalon_transport::{EmissionPdf, LaneKind, MediumId};
+use etalon_transport::{EmissionPdf, LaneKind, MediumId, RollingShutter};
 use std::sync::Arc;
 
 /// The parts that scenes with different sensors share.
 pub struct Parts {
     pub(crate) camera: AnyCamera<MeasuredShape>,
+    /// How rows of the picture are exposed, if not all at once.
+    pub(crate) rolling: Option<RollingShutter>,
     /// Whether vertices are shaded in vector lanes: where no medium shines or has a diffusion profile.
     pub(crate) in_lanes: bool,
     pub(crate) space: Space,

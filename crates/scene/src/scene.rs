@@ -15,7 +15,7 @@ use etalon_spectrum::{Sensor, Wavelengths};
 use etalon_subsurface::Homogeneous;
 use etalon_transport::{
     Emission, EmissionPdf, LightId, LightKind, LightSample, LightSampleContext, LightVariety,
-    MediumId, Ray, ShadowQuery, SurfaceInteraction, Transmission, World,
+    MediumId, Ray, RollingShutter, ShadowQuery, SurfaceInteraction, Transmission, World,
 };
 use glam::{Vec2, Vec3};
 use std::sync::Arc;
@@ -35,6 +35,7 @@ impl Scene {
         materials: Vec<Material>,
         lights: LightSet,
         media: SceneMedia,
+        rolling: Option<RollingShutter>,
     ) -> Self {
         let camera_named = media.camera;
         let space = Space::new(lookup, media);
@@ -53,6 +54,7 @@ impl Scene {
         let are_null: Vec<bool> = materials.iter().map(Material::has_null).collect();
         let parts = Parts {
             camera,
+            rolling,
             in_lanes,
             has_null: are_null.contains(&true),
             are_null,
@@ -108,6 +110,14 @@ impl World for Scene {
     #[inline]
     fn sensor(&self) -> &Sensor {
         &self.sensor
+    }
+
+    #[inline]
+    fn moment(&self, raster: Vec2, u: f32) -> f32 {
+        match &self.parts.rolling {
+            Some(rolling) => rolling.moment(raster.y, u),
+            None => u,
+        }
     }
 
     #[inline]

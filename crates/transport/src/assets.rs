@@ -21,6 +21,8 @@ pub enum MeshFormat {
     Obj,
     /// Stanford PLY.
     Ply,
+    /// The vertices alone of a Stanford PLY, which needs no faces.
+    PlyPoints,
     /// One mesh of those in a `.serialized` file of Mitsuba's.
     Serialized {
         /// Index of the mesh in its file, from 0.

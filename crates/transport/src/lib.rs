@@ -26,6 +26,7 @@ pub mod medium;
 pub mod mesh;
 pub mod phase;
 pub mod ray;
+mod rolling_shutter;
 pub mod sample_pdf;
 pub mod scatterer;
 pub mod scene_capabilities;
@@ -57,6 +58,7 @@ pub use medium::{Coefficients, Collision, FreeFlight, Medium, MediumInterface, V
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};
 pub use ray::{Departure, Ray};
+pub use rolling_shutter::RollingShutter;
 pub use sample_pdf::SamplePdf;
 pub use scatterer::{PhaseOf, Scatterer, ScattererOf};
 pub use scene_capabilities::{

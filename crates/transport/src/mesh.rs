@@ -13,6 +13,21 @@ pub struct Attribute {
     pub values: Vec<f32>,
 }
 
+impl Attribute {
+    /// Three channels of the vertex or face with this number: one channel counts three times, a channel that is missing
+    /// as 0. Each stored number counts as the nearest in the range.
+    #[inline]
+    pub fn of(&self, index: usize, [low, high]: [f32; 2]) -> Vec3 {
+        let values = &self.values[index * self.channels..];
+        let stored = match self.channels {
+            1 => Vec3::splat(values[0]),
+            2 => Vec3::new(values[0], values[1], 0.0),
+            _ => Vec3::new(values[0], values[1], values[2]),
+        };
+        stored.clamp(Vec3::splat(low), Vec3::splat(high))
+    }
+}
+
 /// An indexed triangle mesh, in the file's own space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshData {

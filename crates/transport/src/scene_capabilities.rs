@@ -62,6 +62,8 @@ pub struct SceneCapabilities {
     pub endless: bool,
     /// Whether a surface has a model that is valid for camera paths only (hair).
     pub one_way: bool,
+    /// Whether rows of the picture are exposed one after another, see [`crate::World::moment`].
+    pub rolling: bool,
     /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
     /// ([`crate::Surfaces::legacy_phong`]).
     pub classic: bool,
@@ -184,6 +186,14 @@ impl SceneCapabilities {
                        the model `hair` knows for paths from the camera only";
         let help = "use `path`, or another integrator that starts at the camera";
         self.one_way.then(|| impossible(message, help))
+    }
+
+    /// The incompatibility, if any, of an estimator that follows light, to a rolling shutter.
+    pub fn rows_in_turn(&self) -> Option<Incompatibility> {
+        let message = "this integrator sends light into the scene at any moment, and the sensor has a rolling shutter, whose rows see \
+                       moments of their own";
+        let help = "use `path`, or another integrator that starts at the camera";
+        self.rolling.then(|| impossible(message, help))
     }
 
     /// The incompatibility, if any, of an estimator that knows nothing of media, with the names of those that do.

@@ -1,5 +1,6 @@
 //! The shutter: the interval of scene time that a picture averages over, and what moves while it is open.
 
+use crate::RollingShutter;
 use etalon_math::Motion;
 use etalon_params::Params;
 
@@ -11,15 +12,22 @@ pub struct Shutter {
     pub open: f64,
     /// Scene time at which it closes; not before `open`.
     pub close: f64,
+    /// How rows are exposed, if not all at once.
+    pub rolling: Option<RollingShutter>,
 }
 
 impl Shutter {
-    /// Reads `shutter_open` and `shutter_close`.
-    pub fn from_params(params: &Params<'_>) -> Self {
+    /// Reads `shutter_open`, `shutter_close` and the parameters of a rolling shutter, for a film of `rows` rows.
+    pub fn from_params(params: &Params<'_>, rows: u32) -> Self {
+        let rolling = RollingShutter::from_params(params, rows);
         let open = params.float_where("shutter_open", 0.0, "a finite number", f64::is_finite);
         let close = params.float_or("shutter_close", 0.0);
         if close >= open && close.is_finite() {
-            return Self { open, close };
+            return Self {
+                open,
+                close,
+                rolling,
+            };
         }
         let what = "a finite number not below `shutter_open`";
         if params.has("shutter_close") {
@@ -27,7 +35,11 @@ impl Shutter {
         } else {
             params.missing("shutter_close", what);
         }
-        Self { open, close: open }
+        Self {
+            open,
+            close: open,
+            rolling,
+        }
     }
 
     /// Scene time of a ray's `time` in [0, 1].

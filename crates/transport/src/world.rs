@@ -94,6 +94,10 @@ pub trait World: Sync {
     /// The sensor.
     fn sensor(&self) -> &Self::Sensor;
 
+    /// The moment, in [0, 1], of a sample at `raster` (pixels of the whole film), chosen by the number `u`: `u` itself, or
+    /// what a [`crate::RollingShutter`] makes of it.
+    fn moment(&self, raster: Vec2, u: f32) -> f32;
+
     /// The transmission along a segment, through at most `crossings` null surfaces (`mask`, `null`)
     /// and the media between; `None` if it is occluded.
     fn transmittance(

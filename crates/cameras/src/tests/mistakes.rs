@@ -54,6 +54,16 @@ fn mistakes_are_refused() {
         ),
         (
             "perspective",
+            vec![number("rolling_shutter_duration", 1.5)],
+            "cannot be 1.5",
+        ),
+        (
+            "perspective",
+            vec![word("rolling_shutter_type", "bottom")],
+            "`bottom` is not a value",
+        ),
+        (
+            "perspective",
             vec![number("fow", 1.0)],
             "no parameter `fow`",
         ),

@@ -1,6 +1,7 @@
 //! `--integrator NAME`: another integrator for a scene.
 //!
-//! The innermost integrator (inside of `aov` and `moment`) becomes one of the type `NAME`. Of its
+//! The innermost integrator (inside of `aov` and `moment`) becomes one of the type `NAME`, but a `field` only if it is the
+//! only one. Of its
 //! properties only `max_depth`, `rr_depth` and `hide_emitters` are kept; an integrator that does
 //! not know one of these leaves it unused without complaint. One that has the type already keeps
 //! all. A scene without an integrator gets one.
@@ -155,7 +156,7 @@ fn unwrap(reader: &mut Reader<'_>, wrapper: ObjectId) {
 }
 
 /// The integrators directly inside of an object.
-fn nested(reader: &Reader<'_>, id: ObjectId) -> Vec<ObjectId> {
+pub(crate) fn nested(reader: &Reader<'_>, id: ObjectId) -> Vec<ObjectId> {
     let objects = &reader.draft.objects;
     let children = objects[id].properties.iter();
     children
@@ -224,6 +225,10 @@ fn innermost(reader: &Reader<'_>, root: ObjectId) -> Vec<ObjectId> {
             found.push(id);
         }
         open.extend(inner);
+    }
+    let is_field = |id: &ObjectId| reader.draft.objects[*id].plugin.value == "field";
+    if !found.iter().all(is_field) {
+        found.retain(|id| !is_field(id));
     }
     found
 }

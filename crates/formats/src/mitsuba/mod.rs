@@ -16,6 +16,7 @@ mod include;
 mod integrator;
 mod markup;
 mod mitsuba06;
+mod multichannel;
 mod number;
 mod object;
 mod operation;
@@ -67,6 +68,7 @@ fn document(reader: &mut Reader<'_>, path: &Path) -> Option<Document> {
     }
     references::resolve(reader);
     mitsuba06::invisible_surfaces(reader);
+    multichannel::upgrade(reader);
     if let Some(name) = &reader.options.integrator {
         integrator::replace(reader, root.object, name);
     }

@@ -70,6 +70,29 @@ pub fn parse(bytes: &[u8]) -> Result<MeshData, MeshError> {
     Ok(mesh)
 }
 
+/// Reads the vertices alone, with their attributes, of a file that needs no faces.
+pub fn parse_points(bytes: &[u8]) -> Result<MeshData, MeshError> {
+    let header = Header::parse(bytes)?;
+    let mut source = Source::new(bytes, &header);
+    let mut points = MeshData::default();
+    for element in &header.elements {
+        if element.name != "vertex" {
+            skip(element, &mut source)?;
+            continue;
+        }
+        let places = vertices(element, &mut source, &mut points)?;
+        if let Some(i) = points.positions.iter().position(|p| !p.is_finite()) {
+            let message = format!("the position of element {i} is not finite");
+            return Err(MeshError::new(places.of(i), message));
+        }
+        break;
+    }
+    if points.positions.is_empty() {
+        return Err(MeshError::new(Place::Whole, "the file has no vertices"));
+    }
+    Ok(points)
+}
+
 /// What the vertices of a file carry beside their positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Carried {

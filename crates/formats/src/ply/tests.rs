@@ -308,3 +308,56 @@ proptest! {
         }
     }
 }
+
+/// Files of points need no faces; text and binary ones name the place of a mistake.
+#[test]
+fn points_need_no_faces() {
+    let file = |rows: &str, count: usize| {
+        format!(
+            "ply\nformat ascii 1.0\nelement camera 1\nproperty float fov\nelement vertex {count}\n\
+             property float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float scale_0\n\
+             property float scale_1\nproperty float scale_2\nproperty float opacity\nend_header\n40\n{rows}"
+        )
+    };
+    let text = file("1 2 3 9 4 5 6 7\n8 9 10 9 11 12 13 14\n", 2);
+    let points = parse_points(text.as_bytes()).expect("points");
+    assert_eq!(
+        points.positions,
+        [Vec3::new(1.0, 2.0, 3.0), Vec3::new(8.0, 9.0, 10.0)]
+    );
+    let of = |name: &str| {
+        let found = points.attributes.iter().find(|a| a.name == name);
+        found.map(|a| (a.channels, a.values.clone()))
+    };
+    assert_eq!(
+        of("vertex_scale"),
+        Some((3, vec![4.0, 5.0, 6.0, 11.0, 12.0, 13.0]))
+    );
+    assert_eq!(of("vertex_opacity"), Some((1, vec![7.0, 14.0])));
+    let said = |text: &[u8]| match parse_points(text) {
+        Ok(_) => panic!("malformed on purpose"),
+        Err(error) => error.to_string(),
+    };
+    let row = "1 2 3 9 4 5 6 7\n";
+    assert_eq!(
+        said(file(&format!("{row}1 nan 3 9 4 5 6 7\n"), 2).as_bytes()),
+        "line 17: the position of element 1 is not finite"
+    );
+    assert!(said(file(row, 2).as_bytes()).contains("the file ends before"));
+    assert!(said(file("1 2 x", 1).as_bytes()).starts_with("line 16: `x` is not a number"));
+    assert_eq!(said(file("", 0).as_bytes()), "the file has no vertices");
+    let mut binary = b"ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\n\
+        property float y\nproperty float z\nend_header\n"
+        .to_vec();
+    let start = binary.len();
+    for number in [0.0, 1.0, 2.0, 3.0, f32::INFINITY, 5.0] {
+        binary.extend(number.to_le_bytes());
+    }
+    assert_eq!(
+        said(&binary),
+        format!(
+            "byte {}: the position of element 1 is not finite",
+            start + 12
+        )
+    );
+}

@@ -217,3 +217,52 @@ fn an_integrator_of_the_command_line_may_be_stood_in_for() {
     assert!(outcome.lines().contains("`path` stands in for it"));
     assert_eq!(children(&document(outcome).root)[0].plugin.value, "path");
 }
+
+/// The pictures of `multichannel` are those of integrators that an `aov` nests, under the names that the film lists.
+#[test]
+fn several_pictures_are_those_of_an_aov() {
+    let scene = |names: &str| {
+        format!(
+            "<scene version='0.6.0'><integrator type='multichannel'><integrator type='path'/>
+             <integrator type='field'><string name='field' value='shNormal'/></integrator></integrator>
+             <sensor type='perspective'><film type='hdrfilm'>{names}</film></sensor></scene>"
+        )
+    };
+    let names = |text: &str| format!("<string name='channelNames' value='{text}'/>");
+    let aov = |scene: &str| {
+        let root = document(file(scene)).root;
+        let aov = children(&root)[0].clone();
+        assert_eq!(aov.plugin.value, "aov");
+        assert!(matches!(&property(&aov, "aovs").value, Value::String(list) if list.is_empty()));
+        let parts = aov.properties.iter();
+        let parts = parts.filter_map(|p| match &p.value {
+            Value::Object(part) => Some((p.name.clone(), part.plugin.value.clone())),
+            _ => None,
+        });
+        parts.collect::<Vec<_>>()
+    };
+    let pair = |name: &str, plugin: &str| (name.to_owned(), plugin.to_owned());
+    assert_eq!(
+        aov(&scene(&names("color, normal"))),
+        [pair("color", "path"), pair("normal", "field")]
+    );
+    assert_eq!(aov(&scene("")), [pair("", "path"), pair("", "field")]);
+    refused(
+        &scene(&names("color")),
+        "`channelNames` has 1 names for the 2 integrators",
+    );
+    refused(
+        "<scene version='0.6.0'><integrator type='multichannel'/></scene>",
+        "`multichannel` needs integrators",
+    );
+    // Another integrator stands in for that which follows light.
+    let options = ReadOptions {
+        integrator: Some("bdpt".into()),
+        ..ReadOptions::default()
+    };
+    let root = document(outcome(&[("main.xml", &scene(""))], &options)).root;
+    let plugins: Vec<_> = (children(&children(&root)[0]).iter())
+        .map(|part| part.plugin.value.clone())
+        .collect();
+    assert_eq!(plugins, ["bdpt", "field"]);
+}

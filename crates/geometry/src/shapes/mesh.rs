@@ -281,27 +281,19 @@ impl Mesh {
         name: &str,
         primitive: u32,
         b: Vec2,
-        [low, high]: [f32; 2],
+        range: [f32; 2],
     ) -> Option<Vec3> {
         let attribute = self.attributes.iter().find(|a| a.name == name)?;
-        let at = |index: usize| -> Vec3 {
-            let values = &attribute.values[index * attribute.channels..];
-            let stored = match attribute.channels {
-                1 => Vec3::splat(values[0]),
-                2 => Vec3::new(values[0], values[1], 0.0),
-                _ => Vec3::new(values[0], values[1], values[2]),
-            };
-            stored.clamp(Vec3::splat(low), Vec3::splat(high))
-        };
         if name.starts_with("face_") {
-            return Some(at(primitive as usize));
+            return Some(attribute.of(primitive as usize, range));
         }
-        let [a0, a1, a2] = self.triangles[primitive as usize].map(|i| at(i as usize));
+        let corners = self.triangles[primitive as usize];
+        let [a0, a1, a2] = corners.map(|i| attribute.of(i as usize, range));
         Some(a0 * (1.0 - b.x - b.y) + a1 * b.x + a2 * b.y)
     }
 
     /// The attributes of its vertices and faces.
-    pub fn attributes(&self) -> &[Attribute] {
+    pub(crate) fn attributes(&self) -> &[Attribute] {
         &self.attributes
     }
 

@@ -102,25 +102,11 @@ impl Sphere {
     /// The point in the direction `normal` (unit) from the centre.
     #[inline(always)] // As above.
     fn surface(&self, normal: DVec3) -> LocalInteraction {
-        let local = self.axes.transpose() * normal;
-        let (x, y, z) = (local.x, local.y, local.z);
-        let sin = float64::safe_sqrt(x * x + y * y);
-        let (cos_phi, sin_phi) = if sin > 0.0 {
-            (x / sin, y / sin)
-        } else {
-            (1.0, 0.0)
-        };
-        let phi = lane::atan2(sin_phi as f32, cos_phi as f32);
-        let u = 0.5 * FRAC_1_PI * phi + if phi < 0.0 { 1.0 } else { 0.0 };
-        let v = lane::atan2(sin as f32, z as f32) * FRAC_1_PI;
-        // At the poles ∂p/∂u vanishes: the tangent of the meridian's neighbour is given length 0
-        // by the formula and direction by its limit, so that a frame can still be built.
-        let dp_du = DVec3::new(-sin_phi, cos_phi, 0.0) * (TAU * sin.max(1e-12));
-        let dp_dv = DVec3::new(z * cos_phi, z * sin_phi, -sin) * PI;
+        let (uv, [dp_du, dp_dv]) = coordinates(self.axes.transpose() * normal);
         LocalInteraction::exact(
             self.center + normal * self.radius,
             normal,
-            Vec2::new(u, v),
+            uv,
             self.axes * dp_du * self.radius,
             self.axes * dp_dv * self.radius,
         )
@@ -248,20 +234,42 @@ impl ShapeModel for Sphere {
 impl Sphere {
     /// The parameters of up to two crossings with a line, in ascending order; NaN where there is none.
     fn crossings(&self, line: &Line) -> [f64; 2] {
-        let Line { origin, direction } = *line;
-        const MISS: [f64; 2] = [f64::NAN; 2];
-        let o = origin - self.center;
-        let a = direction.length_squared();
-        let b = o.dot(direction);
-        let closest = o - direction * (b / a);
-        let disc = self.radius * self.radius - closest.length_squared();
-        if !(disc >= 0.0) {
-            return MISS;
-        }
-        let q = -(b + (a * disc).sqrt().copysign(b));
-        let distance = o.length();
-        let c = (distance - self.radius) * (distance + self.radius);
-        let (t0, t1) = (c / q, q / a);
-        if t0 <= t1 { [t0, t1] } else { [t1, t0] }
+        crossings(line.origin - self.center, line.direction, self.radius)
     }
+}
+
+/// The same of the line o + t·d with the sphere of this radius around the origin.
+#[inline(always)] // As above.
+pub(crate) fn crossings(o: DVec3, direction: DVec3, radius: f64) -> [f64; 2] {
+    let a = direction.length_squared();
+    let b = o.dot(direction);
+    let closest = o - direction * (b / a);
+    let disc = radius * radius - closest.length_squared();
+    if !(disc >= 0.0) {
+        return [f64::NAN; 2];
+    }
+    let q = -(b + (a * disc).sqrt().copysign(b));
+    let distance = o.length();
+    let c = (distance - radius) * (distance + radius);
+    let (t0, t1) = (c / q, q / a);
+    if t0 <= t1 { [t0, t1] } else { [t1, t0] }
+}
+
+/// (u, v) of a point of the unit sphere, ∂p/∂u and ∂p/∂v.
+#[inline(always)] // So that nothing is computed that the caller does not need.
+pub(crate) fn coordinates(DVec3 { x, y, z }: DVec3) -> (Vec2, [DVec3; 2]) {
+    let sin = float64::safe_sqrt(x * x + y * y);
+    let (cos_phi, sin_phi) = if sin > 0.0 {
+        (x / sin, y / sin)
+    } else {
+        (1.0, 0.0)
+    };
+    let phi = lane::atan2(sin_phi as f32, cos_phi as f32);
+    let u = 0.5 * FRAC_1_PI * phi + if phi < 0.0 { 1.0 } else { 0.0 };
+    let v = lane::atan2(sin as f32, z as f32) * FRAC_1_PI;
+    // At the poles ∂p/∂u vanishes: the tangent of the meridian's neighbour is given length 0
+    // by the formula and direction by its limit, so that a frame can still be built.
+    let dp_du = DVec3::new(-sin_phi, cos_phi, 0.0) * (TAU * sin.max(1e-12));
+    let dp_dv = DVec3::new(z * cos_phi, z * sin_phi, -sin) * PI;
+    (Vec2::new(u, v), [dp_du, dp_dv])
 }

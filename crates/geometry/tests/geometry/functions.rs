@@ -1,6 +1,6 @@
 //! Solids that functions bound, for the tests of [`crate::solids`].
 
-use crate::description::good_volume;
+use crate::files::good_volume;
 use crate::solids::{Depth, ball, built, combine, in_ball, number, vector};
 use core::f64::consts::PI;
 use etalon_geometry::Shape;

@@ -1,6 +1,6 @@
 //! Functions on a grid: how they are shaded. Where they are met: [`crate::solids`].
 
-use crate::description::volume_function;
+use crate::files::volume_function;
 use crate::solids::built;
 use crate::things::{Random, geometry_of};
 use etalon_params::{DVec3, Value};

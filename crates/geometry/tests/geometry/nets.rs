@@ -1,6 +1,7 @@
 //! Surfaces as nets of triangles: how far they are off, and what is said of mistakes.
 
-use crate::description::{good_patch, make};
+use crate::description::make;
+use crate::files::good_patch;
 use crate::things::{Random, geometry_of};
 use etalon_params::Value;
 use etalon_transport::{Ray, ShapeId, Shapes};

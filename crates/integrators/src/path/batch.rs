@@ -78,7 +78,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks, const N: usize> PathBatch<'w, W, S,
         self.views.push(View {
             raster: site.raster,
             lens,
-            time,
+            time: world.moment(site.raster, time),
         });
     }
 

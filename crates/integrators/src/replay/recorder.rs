@@ -256,6 +256,10 @@ impl<'a, W: World> World for Recorder<'a, W> {
         &self.sensor
     }
 
+    fn moment(&self, raster: Vec2, u: f32) -> f32 {
+        self.world.moment(raster, u)
+    }
+
     fn transmittance(
         &self,
         ray: &Ray,

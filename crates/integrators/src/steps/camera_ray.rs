@@ -21,6 +21,7 @@ pub(crate) fn camera_ray<W: World, S: Sampler>(
     sampler: &mut S,
 ) -> (Wavelengths, Ray, f32) {
     let (lens, u, time) = draw_lens(sampler);
+    let time = world.moment(site.raster, time);
     let (ray, weight) = ray_at(world, site, lens, time);
     (world.sensor().wavelengths(u), ray, weight)
 }

@@ -42,7 +42,7 @@ impl Whitted {
         for point in 0..self.lens_points.count() {
             let lens = self.lens_points.point(point, sampler);
             // The shutter only opens.
-            let start = world.camera().ray(raster, lens, 0.0);
+            let start = world.camera().ray(raster, lens, world.moment(raster, 0.0));
             let rgb = self.follow(tree, start.ray, packets, 1, sampler);
             let alpha = self.alpha(world, start.ray, &packets[0].wavelengths);
             sum += (rgb * start.weight).extend(alpha);

@@ -253,6 +253,9 @@ impl World for Sphere {
     fn sensor(&self) -> &Self {
         self
     }
+    fn moment(&self, _: Vec2, u: f32) -> f32 {
+        u
+    }
     fn transmittance(&self, _: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {
         Some(Transmission::FREE)
     }

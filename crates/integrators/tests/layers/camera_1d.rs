@@ -9,6 +9,8 @@ use glam::{Vec2, Vec3};
 pub(crate) struct Camera1D {
     pub height: f32,
     pub up: bool,
+    /// Before this moment it sees nothing.
+    pub sees_after: f32,
 }
 
 impl Camera for Camera1D {
@@ -16,7 +18,7 @@ impl Camera for Camera1D {
         let z = if self.up { 0.8 } else { -0.8 };
         CameraRay {
             ray: Ray::new(Vec3::Z * self.height, Vec3::new(0.6, 0.0, z), time),
-            weight: 1.0,
+            weight: if time < self.sees_after { 0.0 } else { 1.0 },
         }
     }
     fn rays<F: Lane>(&self, raster: [F; 2], lens: [F; 2], time: F) -> CameraRays<F> {

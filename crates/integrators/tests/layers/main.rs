@@ -16,6 +16,7 @@ mod loops;
 mod measure;
 mod naive;
 mod recursive;
+mod rolling;
 mod scatter;
 mod tally;
 mod together;

@@ -33,7 +33,7 @@ impl TileSink for Record {
     }
 }
 
-fn drafts(count: u32) -> Vec<SampleJob<Sobol>> {
+pub(crate) fn drafts(count: u32) -> Vec<SampleJob<Sobol>> {
     let draft = |sample| {
         let mut sampler = Sobol::start(&SampleId {
             seed: 7,

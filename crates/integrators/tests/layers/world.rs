@@ -77,6 +77,8 @@ pub(crate) struct Stack {
     pub sky_power: f32,
     /// Where the camera is, and whether it looks up.
     pub camera: Camera1D,
+    /// If given, the moment of every sample.
+    pub row_moment: Option<f32>,
     /// If given, every path carries a rotation of these wavelengths.
     pub fixed: Option<Wavelengths>,
     pub fault: Fault,
@@ -96,7 +98,12 @@ impl Stack {
             planes,
             sky,
             sky_power: 0.0,
-            camera: Camera1D { height, up },
+            camera: Camera1D {
+                height,
+                up,
+                sees_after: 0.0,
+            },
+            row_moment: None,
             fixed: None,
             fault: Fault::None,
             one_sided: true,
@@ -277,6 +284,9 @@ impl World for Stack {
     }
     fn sensor(&self) -> &Self {
         self
+    }
+    fn moment(&self, _: Vec2, u: f32) -> f32 {
+        self.row_moment.unwrap_or(u)
     }
     fn transmittance(
         &self,

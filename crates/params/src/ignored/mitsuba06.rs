@@ -78,7 +78,7 @@ pub(super) const LIST: &[Ignored] = &[
         Class::Film,
         &[],
         &["channel_names"],
-        "They name the channels of the integrator `multichannel`, which is not built.",
+        "They name the pictures of the integrator `multichannel`, and of no other.",
     )
     .said(),
     of(

@@ -271,6 +271,9 @@ impl<'s, W: World> World for Script<'s, W> {
     fn sensor(&self) -> &Self {
         self
     }
+    fn moment(&self, raster: Vec2, u: f32) -> f32 {
+        self.world.moment(raster, u)
+    }
     fn transmittance(&self, ray: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {
         let [_, to] = self.between(ray)?;
         let arrives = match self.course.position(to) {

@@ -66,10 +66,7 @@ impl RequiredAttributes {
             // The texture itself has said so.
             return;
         };
-        let stored = match shape {
-            Shape::Mesh(mesh) => mesh.attributes(),
-            _ => &[],
-        };
+        let stored = shape.attributes();
         let Some(attribute) = stored.iter().find(|a| a.name == *name) else {
             diagnostics.push(missing(name, span, stored).related(place, "this shape uses it"));
             return;

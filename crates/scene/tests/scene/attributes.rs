@@ -138,3 +138,44 @@ fn a_texture_without_coordinates_is_noted() {
     let read = read_with(&document(&shared), &[("t.ply", &mesh("float heat", "0"))]);
     assert_eq!(read.notes.len(), 1, "{:?}", read.notes);
 }
+
+/// Clouds of ellipsoids are like meshes; their ellipsoids cannot be lights, their shells can.
+#[test]
+fn clouds_have_attributes() {
+    let names = "x y z scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3 heat";
+    let properties: String = (names.split(' '))
+        .map(|name| format!("property float {name}\n"))
+        .collect();
+    let file = format!(
+        "ply\nformat ascii 1.0\nelement vertex 2\n{properties}end_header\n\
+         9 0 0 0 0 0 1 0 0 0 0.25\n0 0 0 0 0 0 1 0 0 0 0.75\n"
+    );
+    for (plugin, lights) in [("ellipsoids", false), ("ellipsoidsmesh", true)] {
+        let on = |content: &str| {
+            let name = "<string name=\"filename\" value=\"t.ply\"/>";
+            let scene = document(&format!(
+                "<shape type=\"{plugin}\">{name}\n{content}</shape>"
+            ));
+            read_with(&scene, &[("t.ply", file.as_str())])
+        };
+        let heat = texture("vertex_heat", "reflectance", 1.0);
+        let read = on(&format!("<bsdf type=\"diffuse\">{heat}</bsdf>"));
+        assert_eq!(read.errors, Vec::<String>::new());
+        let scene = read.compiled.expect("a scene without mistakes").scene;
+        let (_, vertex) = meet(&scene, &down(0.1, 0.1)).expect("a surface");
+        let bsdf = scene.surfaces().bsdf(&vertex, Vec3::Z, &LANES);
+        let albedo = bsdf.albedo(Vec3::Z);
+        assert!(
+            (albedo - 0.75).abs().max_element() < 1e-5,
+            "{plugin}: {albedo}"
+        );
+        let cold = texture("vertex_cold", "reflectance", 1.0);
+        let errors = on(&format!("<bsdf type=\"diffuse\">{cold}</bsdf>")).errors;
+        assert!(
+            matches!(errors.as_slice(), [only] if only.contains("the shape stores `vertex_heat`")),
+            "{errors:?}"
+        );
+        let errors = on("<emitter type=\"area\"/>").errors;
+        assert_eq!(errors.is_empty(), lights, "{errors:?}");
+    }
+}

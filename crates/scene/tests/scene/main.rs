@@ -9,3 +9,4 @@ mod media;
 mod mistakes;
 mod passing;
 mod reading;
+mod rolling;

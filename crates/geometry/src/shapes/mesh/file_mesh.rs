@@ -40,20 +40,8 @@ fn read(
     let flip_normals = read_flip(params);
     let flip_tex_coords =
         flip_tex_coords.is_some_and(|default| params.boolean_or("flip_tex_coords", default));
-    let Some(filename) = params.string("filename") else {
-        if !params.has("filename") {
-            params.missing("filename", "the mesh file");
-        }
-        return None;
-    };
+    let (filename, data) = contents(params, build, format, "the mesh file")?;
     let span = span_of_filename(params);
-    let data = match build.assets().mesh(format?, filename) {
-        Ok(data) => data,
-        Err(error) => {
-            report(params, error);
-            return None;
-        }
-    };
     for note in notes(&data, face_normals || data.face_normals) {
         let message = format!("`{filename}`: {note}");
         params.diagnostics.push(Diagnostic::note(span, message));
@@ -72,6 +60,22 @@ fn read(
             None
         }
     }
+}
+
+/// The name and the contents of the mesh file `filename`, which holds `what`; without a format, only looks at the parameter.
+pub(crate) fn contents<'a>(
+    params: &Params<'a>,
+    build: &mut dyn Build,
+    format: Option<MeshFormat>,
+    what: &str,
+) -> Option<(&'a str, MeshData)> {
+    if !params.has("filename") {
+        params.missing("filename", what);
+    }
+    let filename = params.string("filename")?;
+    let data = build.assets().mesh(format?, filename);
+    let data = data.map_err(|error| report(params, error)).ok()?;
+    Some((filename, data))
 }
 
 /// Notes on a file that can be used.
