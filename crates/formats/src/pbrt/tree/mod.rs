@@ -19,6 +19,7 @@ mod film;
 mod filter;
 mod grid_media;
 mod hair;
+mod image_textures;
 mod instances;
 mod integrator;
 mod lights;
@@ -44,6 +45,7 @@ mod subsurface;
 #[cfg(test)]
 mod tests;
 mod texture_kinds;
+mod texture_mapping;
 mod textures;
 
 use super::parameters::Parameters;

@@ -121,3 +121,78 @@ fn bilinear_colours() {
         ))
     );
 }
+
+#[test]
+fn images_of_other_codes_and_places() {
+    assert_eq!(
+        reflectance(
+            r#"Translate 1 2 3 Texture "t" "spectrum" "imagemap" "string filename" "a.png" "string wrap" "black" "bool invert" true
+               "string encoding" "gamma 2.2" "string mapping" "planar" "vector3 v1" [ 2 0 0 ] "vector3 v2" [ 0 0 1 ] "float udelta" 0.5"#
+        ),
+        texture(
+            r#"<texture type="projected"><string name="mapping" value="planar"/><texture type="bitmap">
+                <string name="filename" value="a.png"/>
+                <transform name="to_uv"><translate x="0.5"/><scale y="-1"/><translate y="1"/></transform>
+                <string name="wrap_mode" value="zero"/><boolean name="invert" value="true"/><float name="exponent" value="2.2"/></texture>
+                <transform name="to_world"><matrix value="0.5 0 0 1  0 0 -0.5 2  0 1 0 3  0 0 0 1"/></transform></texture>"#
+        )
+    );
+    let linear = reflectance(
+        r#"Texture "t" "spectrum" "imagemap" "string filename" "a.png" "string encoding" "linear""#,
+    );
+    assert!(linear.contains("exponent: float 1"), "{linear}");
+}
+
+#[test]
+fn what_has_no_equal_is_refused_by_name() {
+    for (texture, expected) in [
+        (
+            r#""ptex" "string filename" "a.ptx""#,
+            "pbrt's texture `ptex`",
+        ),
+        (r#""directionmix""#, "pbrt's texture `directionmix`"),
+        (
+            r#""imagemap" "string filename" "a.png" "string wrap" "octahedralsphere""#,
+            "`wrap` `octahedralsphere`",
+        ),
+        (
+            r#""imagemap" "string filename" "a.png" "bool invert" true "float scale" 2"#,
+            "`scale` of inverted images",
+        ),
+        (
+            r#""imagemap" "string filename" "a.png" "string encoding" "gamma two""#,
+            "`encoding` of `imagemap` cannot be `gamma two`",
+        ),
+        (
+            r#""checkerboard" "string mapping" "planar" "vector3 v1" [ 0 2 0 ]"#,
+            "`v1` and `v2` of a planar mapping span no plane",
+        ),
+        (
+            r#""checkerboard" "integer dimension" 4"#,
+            "`dimension` of `checkerboard` cannot be 4",
+        ),
+        (
+            r#""dots" "float vscale" 0"#,
+            "`vscale` of `dots` cannot be 0",
+        ),
+        (
+            r#""bilerp" "float uscale" 2 "rgb v00" [ 1 0 0 ]"#,
+            "`bilerp` of colours beyond the unit square",
+        ),
+    ] {
+        let text = format!(
+            "Texture \"t\" \"spectrum\" {texture} Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\""
+        );
+        let said = world(&text).lines();
+        assert!(said.contains(expected), "{texture}: {said}");
+    }
+}
+
+/// A pattern in space needs no texture coordinates: curves, which have none, may have it.
+#[test]
+fn patterns_in_space_are_for_every_shape() {
+    let text = r#"WorldBegin Texture "t" "spectrum" "checkerboard" "string mapping" "spherical"
+        Texture "n" "float" "scale" "float tex" 0.5
+        Material "diffuse" "texture reflectance" "t" Shape "curve" "string type" "cylinder" "point3 P" [ 0 0 0  1 0 0  1 1 0  1 1 1 ]"#;
+    assert_eq!(sound(text).meshes.len(), 0);
+}
