@@ -5,12 +5,12 @@
 use crate::reader::Use;
 use crate::times_d65;
 use crate::{
-    Arithmetic, Bitmap, Checkerboard, Computed, Constant, Grid, MeshAttribute, Procedural,
-    Projected, Ramp, TextureReader, TextureTable, TimesD65,
+    Arithmetic, Bitmap, Checkerboard, Computed, Constant, Extinction, Grid, MeshAttribute,
+    Procedural, Projected, Ramp, TextureReader, TextureTable, TimesD65,
 };
 use crate::{
-    arithmetic, bitmap, checkerboard, computed, constant, grid, mesh_attribute, procedural,
-    projected, ramp, spectra,
+    arithmetic, bitmap, checkerboard, computed, constant, extinction, grid, mesh_attribute,
+    procedural, projected, ramp, spectra,
 };
 use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
@@ -186,6 +186,8 @@ textures! {
     }
     /// Another by coordinates that follow from the place.
     Projected { "projected" => projected::read, }
+    /// k of a reflectance.
+    Extinction { "extinction" => extinction::read, }
     /// Colours along a line.
     Ramp { "ramp" => ramp::read, }
     /// Computed from others.

@@ -50,3 +50,20 @@ fn values_are_those_of_the_formulas() {
     let scaled = vec![("texture", squares()), ("scale", Value::Float(1.5))];
     near(at(&one("scale", scaled, role), corner), [0.6, 1.0]);
 }
+
+/// A conductor of η = 1 and this k has the reflectance again, by Fresnel's formula.
+#[test]
+fn extinctions_give_their_reflectance() {
+    for reflectance in [0.0, 0.04, 0.5, 0.95] {
+        let properties = vec![("reflectance", Value::Float(reflectance))];
+        let one = One::new(
+            &Files::default(),
+            &node("extinction", properties),
+            SpectrumKind::Index,
+        );
+        let square = f64::from(one.spectrum(0.0, 0.0).x).powi(2);
+        let found = square / (4.0 + square);
+        assert!((found - reflectance).abs() < 1e-6, "{found}");
+        assert_eq!(one.number(0.0, 0.0), one.spectrum(0.0, 0.0).w);
+    }
+}

@@ -135,9 +135,9 @@ impl<'a> Mapper<'a> {
         medium: &Medium,
     ) -> Option<Arc<Node>> {
         let cells = cells(params)?;
-        let absorbed = self.cell_colours(params, "sigma_a", &cells)?;
-        let scattered = self.cell_colours(params, "sigma_s", &cells)?;
-        let emitted = self.cell_colours(params, "Le", &cells)?;
+        let absorbed = self.cell_colours(params, ("sigma_a", Role::Unbounded), &cells)?;
+        let scattered = self.cell_colours(params, ("sigma_s", Role::Unbounded), &cells)?;
+        let emitted = self.cell_colours(params, ("Le", Role::Emission(1.0)), &cells)?;
         if absorbed.is_none() && scattered.is_none() {
             params.missing("rgb sigma_s");
             return None;
@@ -293,7 +293,7 @@ impl<'a> Mapper<'a> {
     fn cell_colours(
         &mut self,
         params: &Parameters<'a>,
-        name: &str,
+        (name, role): (&str, Role),
         cells: &Cells,
     ) -> Option<Option<Vec<[f32; 3]>>> {
         let Some((colours, space)) = params.rgbs(name) else {
@@ -302,10 +302,10 @@ impl<'a> Mapper<'a> {
         fits(params, name, colours.len(), cells)?;
         let mut found = Vec::with_capacity(colours.len());
         for colour in colours {
-            let converted = to_rec709(*colour, space).map(|rgb| rgb.to_array().map(|c| c as f32));
-            match converted.filter(|rgb| rgb.iter().all(|c| *c >= 0.0 && c.is_finite())) {
-                Some(rgb) => found.push(rgb),
-                None => {
+            let rgb = to_rec709(*colour, space, role).to_array();
+            match rgb.map(|c| c as f32) {
+                rgb if rgb.iter().all(|c| *c >= 0.0 && c.is_finite()) => found.push(rgb),
+                _ => {
                     let [r, g, b] = colour;
                     params.refuse(
                         name,

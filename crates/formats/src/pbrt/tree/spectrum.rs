@@ -111,11 +111,7 @@ impl<'a> Mapper<'a> {
         let SpectrumValue::Rgb(written, space) = value else {
             return None;
         };
-        let Some(rgb) = to_rec709(written, space) else {
-            let accepted = "the colour spaces srgb, dci-p3 and rec2020";
-            self.refuse_value(params, name, "colour space `aces2065-1`", accepted);
-            return None;
-        };
+        let rgb = to_rec709(written, space, role);
         let most = match role {
             Role::Reflectance => 1.0,
             _ => f64::INFINITY,

@@ -200,7 +200,7 @@ impl<'a> Mapper<'a> {
 }
 
 /// (1 − weight) a + weight b.
-fn mixed(span: Span, a: Given, b: Given, weight: Given) -> Given {
+pub(crate) fn mixed(span: Span, a: Given, b: Given, weight: Given) -> Given {
     let same = matches!((&a.value, &b.value), (Value::Float(x), Value::Float(y)) if x == y);
     if same {
         return given(a.value, span);

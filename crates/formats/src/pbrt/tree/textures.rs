@@ -13,7 +13,7 @@ use super::Mapper;
 use super::node::{Given, given};
 use super::spectrum::Role;
 pub(crate) use crate::draft::times;
-use etalon_params::{Class, DMat4, Node, Span, Value};
+use etalon_params::{DMat4, Node, Span, Value};
 use glam::DVec4;
 use std::collections::HashSet;
 
@@ -107,18 +107,29 @@ impl<'a> Mapper<'a> {
 
 /// Whether something is looked up by a surface's texture coordinates within a node.
 pub(crate) fn looks_at_uv(node: &Node) -> bool {
-    let by_uv = |node: &Node| match node.plugin.value.as_str() {
+    any_within(node, |node| match node.plugin.value.as_str() {
         "bitmap" | "checkerboard" | "dots" => true,
-        "expression" => node.properties.iter().any(|p| match &p.value {
-            Value::String(formula) => {
-                let mut words = formula.split(|c: char| !c.is_ascii_alphanumeric());
-                words.any(|word| word == "u" || word == "v")
-            }
-            _ => false,
-        }),
-        _ => false,
+        _ => has_formula_of(node, &["u", "v"]),
+    })
+}
+
+/// Whether something is looked up by the place in space within a node.
+pub(crate) fn looks_at_place(node: &Node) -> bool {
+    any_within(node, |node| match node.plugin.value.as_str() {
+        "projected" | "cubes" => true,
+        _ => has_formula_of(node, &["x", "y", "z"]),
+    })
+}
+
+/// Whether a node is an `expression` of some variables.
+fn has_formula_of(node: &Node, variables: &[&str]) -> bool {
+    let asks = |formula: &str| {
+        let mut words = formula.split(|c: char| !c.is_ascii_alphanumeric());
+        words.any(|word| variables.contains(&word))
     };
-    any_within(node, |node| node.class == Class::Texture && by_uv(node))
+    let mut properties = node.properties.iter();
+    node.plugin.value == "expression"
+        && properties.any(|p| matches!(&p.value, Value::String(formula) if asks(formula)))
 }
 
 /// Whether a material within a node is rougher along one tangent than along the other.
@@ -136,11 +147,11 @@ fn any_within(node: &Node, holds: impl Fn(&Node) -> bool) -> bool {
         if !seen.insert(std::ptr::from_ref(node)) {
             continue;
         }
-        if node.plugin.value == "projected" {
-            continue;
-        }
         if holds(node) {
             return true;
+        }
+        if node.plugin.value == "projected" {
+            continue;
         }
         open.extend(
             node.properties

@@ -75,6 +75,12 @@ fn other_colour_spaces() {
         sound("WorldBegin ColorSpace \"rec2020\" LightSource \"infinite\" \"rgb L\" [ 2 2 2 ]");
     let light = children(&document.root).pop().expect("a light");
     assert!(shown(&light).contains("radiance: rgb 2.000000e0 2.000000e0 2.000000e0"));
+    // A white reflectance of ACES is white; its light has the colour of its own white.
+    assert_same_world(
+        r#"ColorSpace "aces2065-1" Material "diffuse" "rgb reflectance" [ 1 1 1 ] Shape "sphere""#,
+        r#"<shape type="sphere"><float name="radius" value="1"/>
+            <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="1 1 1"/></bsdf></bsdf></shape>"#,
+    );
 }
 
 #[test]
