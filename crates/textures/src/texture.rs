@@ -5,12 +5,12 @@
 use crate::reader::Use;
 use crate::times_d65;
 use crate::{
-    Arithmetic, Bitmap, Checkerboard, Computed, Constant, Extinction, Grid, MeshAttribute,
-    Procedural, Projected, Ramp, TextureReader, TextureTable, TimesD65,
+    Arithmetic, Bitmap, Checkerboard, Computed, Constant, Extinction, Grid, Incandescence,
+    MeshAttribute, Procedural, Projected, Ramp, TextureReader, TextureTable, TimesD65,
 };
 use crate::{
-    arithmetic, bitmap, checkerboard, computed, constant, extinction, grid, mesh_attribute,
-    procedural, projected, ramp, spectra,
+    arithmetic, bitmap, checkerboard, computed, constant, extinction, grid, incandescence,
+    mesh_attribute, procedural, projected, ramp, spectra,
 };
 use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
@@ -188,6 +188,8 @@ textures! {
     Projected { "projected" => projected::read, }
     /// k of a reflectance.
     Extinction { "extinction" => extinction::read, }
+    /// Light by temperature.
+    Incandescence { "incandescence" => incandescence::read, }
     /// Colours along a line.
     Ramp { "ramp" => ramp::read, }
     /// Computed from others.

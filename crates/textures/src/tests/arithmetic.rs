@@ -67,3 +67,34 @@ fn extinctions_give_their_reflectance() {
         assert_eq!(one.number(0.0, 0.0), one.spectrum(0.0, 0.0).w);
     }
 }
+
+/// By Planck's law written out with hc/k = 14.387769 mm K; of 5000 K the most is at 579.55 nm. What is cold emits nothing.
+#[test]
+fn bodies_glow_by_their_temperature() {
+    let at = |temperature: &str| {
+        let input = super::rules::object("expression", vec![("value", text(temperature))]);
+        One::new(
+            &Files::default(),
+            &node(
+                "incandescence",
+                vec![("temperature", input), ("scale", Value::Float(2.0))],
+            ),
+            SpectrumKind::Emission,
+        )
+    };
+    let body = at("2000 + 6000*u");
+    for (u, temperature) in [(0.0, 2000.0), (0.5, 5000.0), (1.0, 8000.0)] {
+        let law = |nm: f64| 1.0 / (nm.powi(5) * ((1.438_776_9e7 / (nm * temperature)).exp() - 1.0));
+        let most = law(2.897_771_955e6 / temperature);
+        let expected = LAMBDA
+            .to_array()
+            .map(|nm| (2.0 * law(nm.into()) / most) as f32);
+        let found = body.spectrum(u, 0.0);
+        let off = (found / Vec4::from_array(expected) - 1.0).abs();
+        assert!(
+            off.max_element() < 1e-4,
+            "{temperature} {found} {expected:?}"
+        );
+    }
+    assert_eq!(at("100").spectrum(0.0, 0.0), Vec4::ZERO);
+}

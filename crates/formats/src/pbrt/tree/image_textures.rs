@@ -1,13 +1,15 @@
 //! Images as textures (`textures.cpp`, `ImageTextureBase`; `util/mipmap.cpp`, `util/color.cpp`): `bitmap`.
 //!
 //! pbrt filters images over the pixel; the mean over its samples is the same. `invert` is max(0, 1 − scale c): of numbers by a formula, of
-//! colours by the texels. `encoding` is that of integers; other files are linear in both.
+//! colours by the texels. `encoding` is that of integers; other files are linear in both. A number is the opacity of the image, if it is not
+//! opaque everywhere, or else the mean of its channels.
 
 use super::super::parameters::Parameters;
 use super::super::placement::Placement;
 use super::super::scene::TextureKind;
 use super::Mapper;
 use super::node::{Draft, Given, word};
+use super::picture::Number;
 use super::textures::{Rows, times};
 use etalon_params::{Class, Value};
 
@@ -69,21 +71,40 @@ impl Mapper<'_> {
             self.refuse_value(params, "wrap", what, "repeat, black, clamp");
             return None;
         }
-        let mut draft = Draft::of(params, Class::Texture, "bitmap")
-            .from(params, "filename", "filename", word(filename))
-            .maybe("to_uv", coordinates.to_uv(params, Rows::FromTop, 1.0));
-        if filter != "bilinear" {
-            draft = draft.from(params, "filter", "filter_type", word(filter));
-        }
-        if wrap != "repeat" {
-            let own = if wrap == "black" { "zero" } else { wrap };
-            draft = draft.from(params, "wrap", "wrap_mode", word(own));
-        }
-        if invert && kind == TextureKind::Spectrum {
-            draft = draft.from(params, "invert", "invert", Value::Boolean(true));
-        }
-        let draft = encoded(params, draft, encoding, kind)?;
-        Some(coordinates.projected(params, draft.value()))
+        let number = match kind {
+            TextureKind::Float => self.number_in(filename),
+            TextureKind::Spectrum => Number::Grey,
+        };
+        let bitmap = |channel: Option<&str>| {
+            let mut draft = Draft::of(params, Class::Texture, "bitmap")
+                .from(params, "filename", "filename", word(filename))
+                .maybe("to_uv", coordinates.to_uv(params, Rows::FromTop, 1.0));
+            if filter != "bilinear" {
+                draft = draft.from(params, "filter", "filter_type", word(filter));
+            }
+            if wrap != "repeat" {
+                let own = if wrap == "black" { "zero" } else { wrap };
+                draft = draft.from(params, "wrap", "wrap_mode", word(own));
+            }
+            if invert && kind == TextureKind::Spectrum {
+                draft = draft.from(params, "invert", "invert", Value::Boolean(true));
+            }
+            if let Some(channel) = channel {
+                draft = draft.plain("channel", word(channel));
+            }
+            Some(encoded(params, draft, encoding, kind)?.value())
+        };
+        let texture = match number {
+            Number::Grey => bitmap(None)?,
+            Number::Alpha => bitmap(Some("a"))?,
+            Number::Mean => Draft::of(params, Class::Texture, "expression")
+                .plain("value", word("(r + g + b)/3"))
+                .given("r", bitmap(Some("r"))?)
+                .given("g", bitmap(Some("g"))?)
+                .given("b", bitmap(Some("b"))?)
+                .value(),
+        };
+        Some(coordinates.projected(params, texture))
     }
 }
 

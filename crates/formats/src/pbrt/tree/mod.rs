@@ -11,12 +11,14 @@
 mod area_light;
 mod bilinear;
 mod camera;
+mod cloud_medium;
 mod coated;
 mod color_space;
 mod curves;
 mod dielectrics;
 mod film;
 mod filter;
+mod glowing_media;
 mod grid_media;
 mod hair;
 mod image_textures;

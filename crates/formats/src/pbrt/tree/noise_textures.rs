@@ -86,7 +86,7 @@ impl Mapper<'_> {
         Some(coordinates.projected(params, draft.value()))
     }
 
-    fn note_noise(&self, params: &Parameters<'_>) {
+    pub(crate) fn note_noise(&self, params: &Parameters<'_>) {
         let message = "pbrt's noise has other random numbers: the pattern is alike, not the same";
         self.note(
             params.entity.span,

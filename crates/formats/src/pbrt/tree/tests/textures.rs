@@ -196,3 +196,47 @@ fn patterns_in_space_are_for_every_shape() {
         Material "diffuse" "texture reflectance" "t" Shape "curve" "string type" "cylinder" "point3 P" [ 0 0 0  1 0 0  1 1 0  1 1 1 ]"#;
     assert_eq!(sound(text).meshes.len(), 0);
 }
+
+/// The number of an image that is not opaque is its opacity, that of a coloured one the mean of its channels.
+#[test]
+fn numbers_of_images() {
+    use etalon_images::{Image, exr};
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, alpha: f32, blue: f32| {
+        let image = [("R", 0.5), ("G", 0.5), ("B", blue), ("A", alpha)]
+            .into_iter()
+            .fold(Image::new(1, 1), |image, (channel, x)| {
+                image.with(channel, vec![x])
+            });
+        let part = exr::Part {
+            name: None,
+            image,
+            offset: [0, 0],
+        };
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        exr::encode(&mut bytes, &[part], [1, 1], "").expect("encoded");
+        std::fs::write(folder.path().join(name), bytes.into_inner()).expect("written");
+    };
+    write("clear.exr", 0.25, 0.5);
+    write("grey.exr", 1.0, 0.5);
+    write("blue.exr", 1.0, 0.75);
+    let channels = |name: &str| {
+        let text = format!(
+            "WorldBegin Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"{name}\" Shape \"disk\" \"texture alpha\" \"t\""
+        );
+        let path = folder.path().join("a.pbrt");
+        std::fs::write(&path, text).expect("written");
+        let outcome = pbrt::read(&path, &ReadOptions::default());
+        assert_eq!(outcome.lines(), "");
+        let shown = value(&outcome.document.expect("a document"), "opacity");
+        let channel = |line: &str| {
+            line.trim()
+                .strip_prefix("channel: string ")
+                .map(str::to_owned)
+        };
+        shown.lines().filter_map(channel).collect::<Vec<_>>()
+    };
+    assert_eq!(channels("clear.exr"), ["a"]);
+    assert_eq!(channels("grey.exr"), [""; 0]);
+    assert_eq!(channels("blue.exr"), ["b", "g", "r"]);
+}
