@@ -276,7 +276,8 @@ fn radii_of_their_own() {
         let plain = mitchell(0.2, 0.5).eval(x / 1.5);
         assert!((stretched(3.0).eval(x) - plain).abs() < 1e-12, "{x}");
     }
-    let sinc = |x: f64| (std::f64::consts::PI * x).sin() / (std::f64::consts::PI * x);
+    let sinc =
+        |x: f64| etalon_math::float64::sin(std::f64::consts::PI * x) / (std::f64::consts::PI * x);
     for x in [0.4, 2.2, 3.5] {
         let found = cut(4.0).eval(x);
         assert!((found - sinc(x) * sinc(x / 3.0)).abs() < 1e-12, "{x}");

@@ -2,6 +2,7 @@
 
 use super::rules::object;
 use super::*;
+use etalon_math::float64::{cos, sin};
 use etalon_params::DMat4;
 use etalon_spectrum::Spectrum;
 use glam::DVec3;
@@ -47,10 +48,10 @@ fn coordinates_are_those_that_points_were_made_from() {
         );
         let (phi, theta) = (TAU * u, PI * v);
         let radius = 0.5 + 0.1 * f64::from(i);
-        let ring = DVec3::new(phi.cos(), phi.sin(), 0.0);
+        let ring = DVec3::new(cos(phi), sin(phi), 0.0);
         pairs.push(("planar", DVec3::new(u, v, radius), [u, v]));
         pairs.push(("cylindrical", radius * ring + v * DVec3::Z, [u, v]));
-        let ball = theta.sin() * ring + theta.cos() * DVec3::Z;
+        let ball = sin(theta) * ring + cos(theta) * DVec3::Z;
         pairs.push(("spherical", radius * ball, [u, v]));
     }
     for mapping in ["planar", "cylindrical", "spherical"] {

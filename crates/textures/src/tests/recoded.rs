@@ -1,6 +1,7 @@
 //! Images beyond whose border there is nothing, with other exponents, and inverted.
 
 use super::*;
+use etalon_math::float64::pow;
 use etalon_spectrum::Spectrum;
 
 /// 2 × 1 texels of eight bits: (51, 102, 204) and white.
@@ -36,7 +37,7 @@ fn has_colour(texture: &One, rgb: [f64; 3]) {
 fn exponents_take_the_place_of_srgb() {
     let share = [51.0_f64, 102.0, 204.0].map(|byte| byte / 255.0);
     let exponent = |x: f64| vec![("exponent", Value::Float(x))];
-    has_colour(&picture(exponent(2.2)), share.map(|x| x.powf(2.2)));
+    has_colour(&picture(exponent(2.2)), share.map(|x| pow(x, 2.2)));
     has_colour(&picture(exponent(1.0)), share);
 }
 
@@ -44,7 +45,7 @@ fn exponents_take_the_place_of_srgb() {
 fn inverted_colours() {
     let linear = [51, 102, 204].map(|byte: u8| {
         let x = f64::from(byte) / 255.0;
-        ((x + 0.055) / 1.055).powf(2.4)
+        pow((x + 0.055) / 1.055, 2.4)
     });
     let inverted = picture(vec![("invert", Value::Boolean(true))]);
     has_colour(&inverted, linear.map(|x| 1.0 - x));

@@ -78,7 +78,7 @@ impl Mapper<'_> {
     /// The value of `dots`: 1 in them, 0 between. `None` after a mistake.
     pub(crate) fn dots(&self, params: &Parameters<'_>, coordinates: &Coordinates) -> Option<Given> {
         let mut draft = Draft::of(params, Class::Texture, "dots");
-        let place = coordinates.from_st(params)?;
+        let place = coordinates.back_to_uv(params)?;
         if place != DMat4::IDENTITY {
             draft = draft.plain("to_world", Value::Transform(place));
         }

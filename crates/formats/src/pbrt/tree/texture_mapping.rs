@@ -42,7 +42,7 @@ impl Coordinates {
     }
 
     /// From (s, t) back to (u, v); `None` after a mistake.
-    pub(crate) fn from_st(&self, params: &Parameters<'_>) -> Option<DMat4> {
+    pub(crate) fn back_to_uv(&self, params: &Parameters<'_>) -> Option<DMat4> {
         if self.from_uv.determinant() == 0.0 {
             let name = if params.float("uscale", 1.0) == 0.0 {
                 "uscale"

@@ -2,6 +2,7 @@
 
 use super::evaluated::Evaluated;
 use super::*;
+use etalon_math::float64::{acos, atan2, sin};
 use etalon_math::noise::noise;
 use etalon_transport::SpectrumKind;
 use glam::{DMat4, DVec3, Vec2, Vec3};
@@ -47,10 +48,10 @@ fn places() -> impl Iterator<Item = (Vec3, DVec3)> {
 
 /// (s, t) of pbrt's mappings.
 fn coordinates(mapping: &str, p: DVec3) -> [f64; 2] {
-    let phi = p.y.atan2(p.x);
+    let phi = atan2(p.y, p.x);
     match mapping {
         "spherical" => [
-            (p.z / p.length()).acos() / PI,
+            acos(p.z / p.length()) / PI,
             if phi < 0.0 { phi + 2.0 * PI } else { phi } / (2.0 * PI),
         ],
         "cylindrical" => [(PI + phi) / (2.0 * PI), p.z],
@@ -169,7 +170,7 @@ fn marble_has_the_colours_of_pbrt() {
     for (world, p) in places() {
         let q = 3.0 * p;
         let fbm = noise(q) + 0.6 * noise(1.99 * q) + 0.36 * noise(1.99 * 1.99 * q);
-        let t = 6.0 * (0.5 + 0.5 * (q.y + 0.4 * fbm).sin());
+        let t = 6.0 * (0.5 + 0.5 * sin(q.y + 0.4 * fbm));
         if (t - t.round()).abs() < 1e-3 {
             continue;
         }

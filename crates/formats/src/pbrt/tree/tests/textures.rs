@@ -195,6 +195,25 @@ fn patterns_in_space_are_for_every_shape() {
         Texture "n" "float" "scale" "float tex" 0.5
         Material "diffuse" "texture reflectance" "t" Shape "curve" "string type" "cylinder" "point3 P" [ 0 0 0  1 0 0  1 1 0  1 1 1 ]"#;
     assert_eq!(sound(text).meshes.len(), 0);
+    // One by (u, v) is looked up along each segment; of hair it is not.
+    let by_uv = text.replace("\"string mapping\" \"spherical\"", "");
+    let outcome = pbrt::read_text("a.pbrt", &by_uv, &ReadOptions::default());
+    assert!(
+        outcome.lines().contains("note: v counts around this curve"),
+        "{}",
+        outcome.lines()
+    );
+    let shape = children(&outcome.document.expect("a document").root).pop();
+    assert!(shown(&shape.expect("a curve")).contains("coordinates: string along"));
+    let hair = by_uv.replace(
+        "\"diffuse\" \"texture reflectance\"",
+        "\"hair\" \"texture sigma_a\"",
+    );
+    let refused = pbrt::read_text("a.pbrt", &hair, &ReadOptions::default()).lines();
+    assert!(
+        refused.contains("texture coordinates of a `curve` of `hair`"),
+        "{refused}"
+    );
 }
 
 /// The number of an image that is not opaque is its opacity, that of a coloured one the mean of its channels.
