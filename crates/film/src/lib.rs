@@ -47,7 +47,7 @@ pub use exact_film::{ExactFilm, STANDARD_ERROR};
 pub use exact_sums::EXACT;
 pub use faults::{FaultLog, InvalidKind, InvalidSample};
 pub use filter_method::FilterMethod;
-pub use filters::{BoxFilter, CatmullRom, Filter, Gaussian, Lanczos, Mitchell, Tent};
+pub use filters::{BoxFilter, CatmullRom, Filter, Gaussian, Lanczos, Mitchell, Tent, WideBox};
 pub use fingerprint::floating_point_fingerprint;
 pub use framing::{FilmSize, Framing};
 pub use glance::Glance;

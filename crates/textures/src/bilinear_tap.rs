@@ -11,6 +11,8 @@ pub enum Wrap {
     Mirror,
     /// The texel at the border.
     Clamp,
+    /// Nothing: 0.
+    Zero,
 }
 
 /// The interpolation between the centres of texels.
@@ -33,13 +35,21 @@ impl Wrap {
                 let j = i.rem_euclid(2 * n);
                 j.min(2 * n - 1 - j)
             }
-            Self::Clamp => i.clamp(0, n - 1),
+            Self::Clamp | Self::Zero => i.clamp(0, n - 1),
         };
         folded as usize
     }
+
+    /// 1 where there is something at texel `i` of the unbounded image, else 0.
+    #[inline]
+    fn share(self, i: i64, n: u32) -> f32 {
+        f32::from(u8::from(
+            self != Self::Zero || (0..i64::from(n)).contains(&i),
+        ))
+    }
 }
 
-/// Four texels (as indices into rows of texels) and their weights, which sum to one.
+/// Four texels (as indices into rows of texels) and their weights, which sum to one unless nothing is there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BilinearTap {
     /// Upper left, upper right, lower left, lower right.
@@ -55,9 +65,32 @@ impl BilinearTap {
         let p = uv * size.as_vec2() - 0.5;
         let corner = p.floor();
         let w = p - corner;
+        Self::weighted(corner, [[1.0 - w.x, w.x], [1.0 - w.y, w.y]], size, wrap)
+    }
+
+    /// The same with the derivatives of the weights by u and by v in place of the weights.
+    pub(crate) fn slopes(uv: Vec2, size: UVec2, wrap: Wrap) -> [Self; 2] {
+        let p = uv * size.as_vec2() - 0.5;
+        let corner = p.floor();
+        let w = p - corner;
+        let (along, across) = (size.as_vec2(), [[1.0 - w.x, w.x], [1.0 - w.y, w.y]]);
+        [
+            Self::weighted(corner, [[-along.x, along.x], across[1]], size, wrap),
+            Self::weighted(corner, [across[0], [-along.y, along.y]], size, wrap),
+        ]
+    }
+
+    /// The four texels from `corner` on, weighted by products of one number for each column and one for each row.
+    #[inline]
+    fn weighted(corner: Vec2, [column, row]: [[f32; 2]; 2], size: UVec2, wrap: Wrap) -> Self {
         let (x, y) = (corner.x as i64, corner.y as i64);
-        let column = [x, x.saturating_add(1)].map(|i| wrap.texel(i, size.x));
-        let row = [y, y.saturating_add(1)].map(|i| wrap.texel(i, size.y) * size.x as usize);
+        let (xs, ys) = ([x, x.saturating_add(1)], [y, y.saturating_add(1)]);
+        let weight = |i: usize, j: usize| {
+            column[i] * row[j] * (wrap.share(xs[i], size.x) * wrap.share(ys[j], size.y))
+        };
+        let weights = [weight(0, 0), weight(1, 0), weight(0, 1), weight(1, 1)];
+        let column = xs.map(|i| wrap.texel(i, size.x));
+        let row = ys.map(|i| wrap.texel(i, size.y) * size.x as usize);
         Self {
             texels: [
                 row[0] + column[0],
@@ -65,20 +98,19 @@ impl BilinearTap {
                 row[1] + column[0],
                 row[1] + column[1],
             ],
-            weights: [
-                (1.0 - w.x) * (1.0 - w.y),
-                w.x * (1.0 - w.y),
-                (1.0 - w.x) * w.y,
-                w.x * w.y,
-            ],
+            weights,
         }
     }
 
-    /// The texel that contains `uv` in an image of `size` texels.
+    /// The texel that contains `uv` in an image of `size` texels, and its weight: 1, or 0 where there is nothing.
     #[inline]
-    pub fn nearest(uv: Vec2, size: UVec2, wrap: Wrap) -> usize {
+    pub fn nearest(uv: Vec2, size: UVec2, wrap: Wrap) -> (usize, f32) {
         let p = (uv * size.as_vec2()).floor();
-        wrap.texel(p.y as i64, size.y) * size.x as usize + wrap.texel(p.x as i64, size.x)
+        let (x, y) = (p.x as i64, p.y as i64);
+        (
+            wrap.texel(y, size.y) * size.x as usize + wrap.texel(x, size.x),
+            wrap.share(x, size.x) * wrap.share(y, size.y),
+        )
     }
 }
 
@@ -88,7 +120,7 @@ mod tests {
 
     #[test]
     fn wrapping_far_away_stays_inside() {
-        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
+        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp, Wrap::Zero] {
             for uv in [
                 Vec2::splat(1e30),
                 Vec2::splat(-1e30),
@@ -102,7 +134,7 @@ mod tests {
                         .iter()
                         .all(|&t| t < 6)
                 );
-                assert!(BilinearTap::nearest(uv, size, wrap) < 6);
+                assert!(BilinearTap::nearest(uv, size, wrap).0 < 6);
             }
         }
     }

@@ -10,6 +10,7 @@ use crate::decode::ImageChannel;
 use crate::picture::{FilePixels, Picture, Stored, ask};
 use crate::pixels::{Texels, Values};
 use crate::reader::Use;
+use crate::recoded::Recoding;
 use crate::recovered::{self, luminance};
 use crate::texture::TextureModel;
 use crate::{Filter, Texture, TextureReader, TextureTable, UvTransform, Wrap};
@@ -54,7 +55,10 @@ impl Bitmap {
                 } = BilinearTap::bilinear(uv, self.image.size, self.wrap);
                 value(a) * w[0] + value(b) * w[1] + (value(c) * w[2] + value(d) * w[3])
             }
-            Filter::Nearest => value(BilinearTap::nearest(uv, self.image.size, self.wrap)),
+            Filter::Nearest => {
+                let (texel, share) = BilinearTap::nearest(uv, self.image.size, self.wrap);
+                value(texel) * share
+            }
         }
     }
 
@@ -93,8 +97,6 @@ impl Bitmap {
             return Vec2::ZERO;
         }
         let at = self.to_uv.apply(uv);
-        let size = self.image.size.as_vec2();
-        let tap = BilinearTap::bilinear(at, self.image.size, self.wrap);
         let number = |texel: usize| -> f32 {
             ask!(&self.image.stored,
                 numbers => numbers.at(texel),
@@ -108,14 +110,12 @@ impl Bitmap {
                 }))
             )
         };
-        let [a, b, c, d] = tap.texels.map(number);
-        let right = tap.weights[1] + tap.weights[3];
-        let low = tap.weights[2] + tap.weights[3];
-        let slope = Vec2::new(
-            (b - a) * (1.0 - low) + (d - c) * low,
-            (c - a) * (1.0 - right) + (d - b) * right,
-        );
-        self.to_uv.gradient(slope * size)
+        let along = |BilinearTap { texels, weights }: BilinearTap| -> f32 {
+            let terms = texels.into_iter().zip(weights);
+            terms.map(|(texel, weight)| number(texel) * weight).sum()
+        };
+        let [u, v] = BilinearTap::slopes(at, self.image.size, self.wrap).map(along);
+        self.to_uv.gradient(Vec2::new(u, v))
     }
 
     /// The channels at `uv`: as stored, or those of the colour.
@@ -158,7 +158,7 @@ impl TextureModel for Bitmap {
     }
 
     fn is_constant(&self, _: &TextureTable) -> bool {
-        self.image.size == UVec2::ONE
+        self.image.size == UVec2::ONE && self.wrap != Wrap::Zero
     }
 
     fn instead_in_space(&self) -> Option<&'static str> {
@@ -182,7 +182,8 @@ pub(crate) fn read(
         }
         return None;
     };
-    let image = image(reader, params, filename, (raw, channel), role)?;
+    let recoding = Recoding::read(params);
+    let image = image(reader, params, filename, (raw, channel, recoding), role)?;
     Some(Texture::from(Bitmap {
         image,
         filter,
@@ -196,11 +197,17 @@ fn image(
     reader: &mut TextureReader<'_>,
     params: &Params<'_>,
     filename: &str,
-    (raw, channel): (bool, Option<ImageChannel>),
+    (raw, channel, recoding): (bool, Option<ImageChannel>, Recoding),
     role: SpectrumKind,
 ) -> Option<Arc<Picture>> {
     let is_bounded = role == SpectrumKind::Reflectance;
-    let key = (filename.to_owned(), raw, channel, is_bounded);
+    let key = (
+        filename.to_owned(),
+        raw,
+        channel,
+        is_bounded,
+        recoding.key(),
+    );
     if let Some(image) = reader.set.images.get(&key) {
         return Some(Arc::clone(image));
     }
@@ -217,7 +224,8 @@ fn image(
             return None;
         }
     };
-    let (size, pixels, notes) = match FilePixels::decode(&mut *file, raw, channel, filename) {
+    let plain = raw || recoding.has_exponent();
+    let (size, pixels, notes) = match FilePixels::decode(&mut *file, plain, channel, filename) {
         Ok(decoded) => decoded,
         Err(message) => {
             fail(message, None);
@@ -229,6 +237,7 @@ fn image(
             .diagnostics
             .push(Diagnostic::note(property.span, note));
     }
+    let pixels = recoding.apply(pixels, size);
     let negative =
         matches!(&pixels, FilePixels::Floats(Values::One(v)) if v.iter().any(|&x| x < 0.0));
     if negative && role == SpectrumKind::Emission {
@@ -288,7 +297,7 @@ fn filter(params: &Params<'_>) -> Filter {
 
 /// `wrap_mode`, or Mitsuba 0.6's `wrap_mode_u` and `wrap_mode_v`, which must agree.
 fn wrap(params: &Params<'_>) -> Wrap {
-    let read = |name, default| params.choice(name, default, &["repeat", "mirror", "clamp"]);
+    let read = |name, default| params.choice(name, default, &["repeat", "mirror", "clamp", "zero"]);
     let both = read("wrap_mode", "repeat");
     let [u, v] = ["wrap_mode_u", "wrap_mode_v"].map(|name| read(name, both));
     if u != v {
@@ -298,6 +307,7 @@ fn wrap(params: &Params<'_>) -> Wrap {
     match u {
         "mirror" => Wrap::Mirror,
         "clamp" => Wrap::Clamp,
+        "zero" => Wrap::Zero,
         _ => Wrap::Repeat,
     }
 }

@@ -11,6 +11,7 @@
 //! Bounds in a box come from interval arithmetic ([`etalon_math::expression::Interval`]), so that tracking through a density
 //! by a formula stays unbiased.
 
+use crate::place;
 use crate::reader::Use;
 use crate::recovered::{luminance, spectrum_of};
 use crate::texture::TextureModel;
@@ -295,14 +296,7 @@ pub(crate) fn read(
             Formulas::Number(params.expression("value", &names)?)
         }
     };
-    let place = DAffine3::from_mat4(params.transform("to_world")).inverse();
-    if !place.is_finite() {
-        params.error_at(
-            "to_world",
-            "`to_world` of a texture must be finite and invertible",
-        );
-        return None;
-    }
+    let place = place::from_world(params)?;
     Some(Texture::from(Computed {
         formulas,
         inputs,

@@ -1,4 +1,4 @@
-//! Patterns computed from a place: `noise`, `fbm`, `turbulence`, `marble`, `wood`, `voronoi`, `bricks`, `gradient`.
+//! Patterns computed from a place: `noise`, `fbm`, `turbulence`, `marble`, `wood`, `voronoi`, `bricks`, `cubes`, `dots`, `gradient`.
 //!
 //! A pattern is a share s(p) in [0, 1] of `color1`, the rest being `color0`; either may be any texture. With n the
 //! noise of [`etalon_math::noise`], r = `roughness`, N = `octaves`:
@@ -11,11 +11,14 @@
 //! wood        the fraction of |(x, y)| + `distortion` · n(p): rings around the z axis
 //! voronoi     the distance to the nearest of random points, one in each cell (S. Worley 1996)
 //! bricks      0 in joints of the width `joint`, 1 in bricks of 1 × ½, each row shifted by ½
+//! cubes       0 and 1 in alternate cubes of side 1, 0 in that from (0, 0, 0) to (1, 1, 1)
+//! dots        1 in disks of radius 0.35, in two fifths of the squares of side 1, each moved at random within its own
 //! gradient    the fraction of x
 //! ```
 //!
 //! p is the place in the world or, with `space` = `uv`, (u, v, 0), taken back by `to_world`, which places the pattern.
 
+use crate::place;
 use crate::reader::Use;
 use crate::texture::TextureModel;
 use crate::{Texture, TextureReader, TextureTable};
@@ -24,7 +27,7 @@ use etalon_math::float64::sin;
 use etalon_math::noise::{lattice_hash, noise, noise_within};
 use etalon_params::Params;
 use etalon_transport::{Shapes, TextureId, TexturePoint};
-use glam::{DAffine3, DMat3, DVec3, Vec3, Vec4};
+use glam::{DAffine3, DMat3, DVec2, DVec3, Vec3, Vec4};
 
 /// Number of cells along a medium with bounds of their own, see [`TextureModel::cells`].
 const CELLS: u32 = 256;
@@ -39,6 +42,8 @@ enum Pattern {
     Wood,
     Voronoi,
     Bricks,
+    Cubes,
+    Dots,
     Gradient,
 }
 
@@ -124,7 +129,8 @@ impl Procedural {
                 let (nearest, reach) = (nearest_point(p), half.length());
                 [nearest - reach, nearest + reach]
             }
-            Pattern::Marble | Pattern::Wood | Pattern::Bricks | Pattern::Gradient => all,
+            // Steps and waves, which reach both.
+            _ => all,
         };
         range.map(|share| share.clamp(0.0, 1.0))
     }
@@ -153,6 +159,8 @@ impl Procedural {
                 let inside = |x: f64, width: f64| x >= half && x < width - half;
                 f64::from(u8::from(inside(x, 1.0) && inside(y, 0.5)))
             }
+            Pattern::Cubes => p.floor().element_sum().rem_euclid(2.0),
+            Pattern::Dots => f64::from(u8::from(in_dot(p.truncate()))),
             Pattern::Gradient => fraction(p.x),
         };
         share.clamp(0.0, 1.0)
@@ -172,6 +180,16 @@ fn nearest_point(p: DVec3) -> f64 {
         least = least.min(point.distance_squared(p));
     }
     least.sqrt()
+}
+
+/// Whether a place of the plane is in a dot. The squares have their middles at integers.
+fn in_dot(p: DVec2) -> bool {
+    const RADIUS: f64 = 0.35;
+    let square = (p + 0.5).floor();
+    // Noise of places apart from one another, and away from the lattice, where it vanishes.
+    let random = |x: f64, y: f64| noise((square + DVec2::new(x, y)).extend(0.5));
+    let moved = (0.5 - RADIUS) * DVec2::new(random(1.5, 2.8), random(4.5, 9.8));
+    random(0.5, 0.5) > 0.0 && (p - square - moved).length() < RADIUS
 }
 
 impl TextureModel for Procedural {
@@ -245,7 +263,7 @@ impl TextureModel for Procedural {
     }
 }
 
-/// Reads `color0` (0) and `color1` (1), `to_world`, `space` (`world` or `uv`; `uv` for `bricks` and `gradient`), and
+/// Reads `color0` (0) and `color1` (1), `to_world`, `space` (`world` or `uv`; `uv` for `bricks`, `dots` and `gradient`), and
 /// what the pattern has: `octaves` (6), `roughness` (0.5), `distortion` (1 for `marble`, 0.3 for `wood`), `joint`
 /// (0.05).
 pub(crate) fn read(
@@ -260,11 +278,13 @@ pub(crate) fn read(
         "wood" => Pattern::Wood,
         "voronoi" => Pattern::Voronoi,
         "bricks" => Pattern::Bricks,
+        "cubes" => Pattern::Cubes,
+        "dots" => Pattern::Dots,
         "gradient" => Pattern::Gradient,
         _ => Pattern::Noise,
     };
-    use Pattern::{Bricks, Fbm, Gradient, Marble, Turbulence, Wood};
-    let flat = matches!(pattern, Bricks | Gradient);
+    use Pattern::{Bricks, Dots, Fbm, Gradient, Marble, Turbulence, Wood};
+    let flat = matches!(pattern, Bricks | Dots | Gradient);
     let space = if flat { "uv" } else { "world" };
     let by_uv = params.choice("space", space, &["world", "uv"]) == "uv";
     let (mut octaves, mut roughness, mut distortion, mut joint) = (6, 0.5, 0.0, 0.0);
@@ -284,15 +304,7 @@ pub(crate) fn read(
         let width = |w: f64| (0.0..=0.5).contains(&w);
         joint = params.float_where("joint", 0.05, "a number from 0 to 0.5", width);
     }
-    let place = DAffine3::from_mat4(params.transform("to_world"));
-    let inverse = place.inverse();
-    if !(place.is_finite() && inverse.is_finite()) {
-        params.error_at(
-            "to_world",
-            "`to_world` of a texture must be finite and invertible",
-        );
-        return None;
-    }
+    let place = place::from_world(params)?;
     let nested = Use { role, nested: true };
     Some(Texture::from(Procedural {
         pattern,
@@ -300,7 +312,7 @@ pub(crate) fn read(
             reader.parameter_in(params, "color0", Some(0.0), nested),
             reader.parameter_in(params, "color1", Some(1.0), nested),
         ],
-        place: inverse,
+        place,
         by_uv,
         octaves: octaves.clamp(1, 32) as u32,
         roughness,

@@ -111,7 +111,7 @@ fn in_nanometres(params: &Params<'_>, name: &str, wavelengths: &[f64]) -> Option
 }
 
 /// A list of numbers separated by commas or spaces.
-fn numbers(params: &Params<'_>, name: &str) -> Option<Vec<f64>> {
+pub(crate) fn numbers(params: &Params<'_>, name: &str) -> Option<Vec<f64>> {
     let Some(text) = params.string(name) else {
         if !params.has(name) {
             params.missing(name, "numbers separated by commas or spaces");

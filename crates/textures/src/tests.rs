@@ -20,7 +20,9 @@ mod integers;
 mod lanes;
 mod mesh_attribute;
 mod procedural;
+mod projected;
 mod ranges;
+mod recoded;
 mod rules;
 
 const NOWHERE: Span = Span {

@@ -5,11 +5,12 @@
 use crate::reader::Use;
 use crate::times_d65;
 use crate::{
-    Arithmetic, Bitmap, Checkerboard, Computed, Constant, Grid, MeshAttribute, Procedural,
-    TextureReader, TextureTable, TimesD65,
+    Arithmetic, Bitmap, Checkerboard, Computed, Constant, Extinction, Grid, Incandescence,
+    MeshAttribute, Procedural, Projected, Ramp, TextureReader, TextureTable, TimesD65,
 };
 use crate::{
-    arithmetic, bitmap, checkerboard, computed, constant, grid, mesh_attribute, procedural, spectra,
+    arithmetic, bitmap, checkerboard, computed, constant, extinction, grid, incandescence,
+    mesh_attribute, procedural, projected, ramp, spectra,
 };
 use etalon_params::{Class, Params, plugins};
 use etalon_transport::{Shapes, TextureId, TexturePoint, gradient_by_differences};
@@ -173,6 +174,8 @@ textures! {
     /// Two textures in a computed pattern.
     Procedural {
         "bricks" => procedural::read,
+        "cubes" => procedural::read,
+        "dots" => procedural::read,
         "fbm" => procedural::read,
         "gradient" => procedural::read,
         "marble" => procedural::read,
@@ -181,6 +184,14 @@ textures! {
         "voronoi" => procedural::read,
         "wood" => procedural::read,
     }
+    /// Another by coordinates that follow from the place.
+    Projected { "projected" => projected::read, }
+    /// k of a reflectance.
+    Extinction { "extinction" => extinction::read, }
+    /// Light by temperature.
+    Incandescence { "incandescence" => incandescence::read, }
+    /// Colours along a line.
+    Ramp { "ramp" => ramp::read, }
     /// Computed from others.
     Arithmetic {
         "add" => arithmetic::read,

@@ -11,6 +11,9 @@ use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
 use std::sync::Arc;
 
+/// What one decoding of an image differs from another by: file, whether raw, channel, whether held to 1, and recoding.
+pub(crate) type ImageKey = (String, bool, Option<ImageChannel>, bool, [u64; 2]);
+
 /// Textures by id. A texture refers only to textures that were added before it, so lookups end.
 ///
 /// A scene's implementation of [`etalon_transport::Textures`] forwards to the methods of the
@@ -27,7 +30,7 @@ pub struct TextureTable {
     pub(crate) nodes: Vec<Arc<Node>>,
     /// Those that have values in space, by the bits of their means.
     alike: HashMap<u32, Vec<TextureId>>,
-    pub(crate) images: HashMap<(String, bool, Option<ImageChannel>, bool), Arc<Picture>>,
+    pub(crate) images: HashMap<ImageKey, Arc<Picture>>,
 }
 
 impl TextureTable {

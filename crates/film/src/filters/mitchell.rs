@@ -6,7 +6,7 @@
 //!          ⎩ 0                                                                         else
 //! ```
 //!
-//! It integrates to one for any B and C. With C > 0 it has negative lobes.
+//! It integrates to one for any B and C. With C > 0 it has negative lobes. With another radius r it is f(2x/r), as pbrt-v4 has it.
 
 /// A cubic filter with blur B and ringing C.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,13 +15,14 @@ pub struct Mitchell {
     c: f64,
     inner: [f64; 4],
     outer: [f64; 4],
+    radius: f64,
 }
 
 impl Mitchell {
     /// The authors' recommendation, and Mitsuba's default, for both parameters.
     pub const DEFAULT: f64 = 1.0 / 3.0;
-    /// Radius (pixels).
-    pub const RADIUS: f64 = 2.0;
+    /// The authors' radius (pixels).
+    pub const DEFAULT_RADIUS: f64 = 2.0;
 
     /// The filter with parameters `b` and `c`, if they are finite and its lobes are.
     pub fn new(b: f64, c: f64) -> Option<Self> {
@@ -42,7 +43,18 @@ impl Mitchell {
                 (6.0 * b + 30.0 * c) / 6.0,
                 (-b - 6.0 * c) / 6.0,
             ],
+            radius: Self::DEFAULT_RADIUS,
         })
+    }
+
+    /// The same stretched to a radius (pixels) above 0.
+    pub fn stretched(self, radius: f64) -> Option<Self> {
+        (radius > 0.0 && radius.is_finite()).then_some(Self { radius, ..self })
+    }
+
+    /// Radius (pixels).
+    pub fn radius(self) -> f64 {
+        self.radius
     }
 
     /// The parameters B and C.
@@ -52,11 +64,11 @@ impl Mitchell {
 
     /// The value at `x` pixels from the centre.
     pub fn eval(self, x: f64) -> f64 {
-        let x = x.abs();
+        let x = x.abs() * (Self::DEFAULT_RADIUS / self.radius);
         let cubic = |[a0, a1, a2, a3]: [f64; 4]| a0 + x * (a1 + x * (a2 + x * a3));
         if x < 1.0 {
             cubic(self.inner)
-        } else if x < Self::RADIUS {
+        } else if x < Self::DEFAULT_RADIUS {
             cubic(self.outer)
         } else {
             0.0

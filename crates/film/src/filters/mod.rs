@@ -10,6 +10,7 @@ mod gaussian;
 mod lanczos;
 mod mitchell;
 mod tent;
+mod wide_box;
 
 pub use box_filter::BoxFilter;
 pub use catmull_rom::CatmullRom;
@@ -17,6 +18,7 @@ pub use gaussian::Gaussian;
 pub use lanczos::Lanczos;
 pub use mitchell::Mitchell;
 pub use tent::Tent;
+pub use wide_box::WideBox;
 
 use etalon_params::{Diagnostic, Params};
 
@@ -25,6 +27,8 @@ use etalon_params::{Diagnostic, Params};
 pub enum Filter {
     /// `box`.
     Box(BoxFilter),
+    /// `box` of another radius.
+    WideBox(WideBox),
     /// `tent`.
     Tent(Tent),
     /// `gaussian`.
@@ -53,7 +57,13 @@ impl Filter {
     pub fn from_params(params: &Params<'_>) -> Self {
         let plugin = &params.node.plugin;
         match plugin.value.as_str() {
-            "box" => Self::Box(BoxFilter),
+            "box" => match params.float_or("radius", BoxFilter::RADIUS) {
+                BoxFilter::RADIUS => Self::Box(BoxFilter),
+                radius => WideBox::new(radius).map_or_else(
+                    || refused(params, "radius", radius, "a radius above 0 (pixels)"),
+                    Self::WideBox,
+                ),
+            },
             "tent" => {
                 let radius = params.float_or("radius", Tent::DEFAULT_RADIUS);
                 Tent::new(radius).map_or_else(
@@ -77,32 +87,33 @@ impl Filter {
             "mitchell" => {
                 let b = params.float_or("B", Mitchell::DEFAULT);
                 let c = params.float_or("C", Mitchell::DEFAULT);
-                Mitchell::new(b, c).map_or_else(
-                    || {
-                        let (name, value) = if Mitchell::new(b, 0.0).is_none() {
-                            ("B", b)
-                        } else {
-                            ("C", c)
-                        };
-                        refused(params, name, value, "a number from -100 to 100")
-                    },
+                let radius = params.float_or("radius", Mitchell::DEFAULT_RADIUS);
+                let Some(plain) = Mitchell::new(b, c) else {
+                    let (name, value) = if Mitchell::new(b, 0.0).is_none() {
+                        ("B", b)
+                    } else {
+                        ("C", c)
+                    };
+                    return refused(params, name, value, "a number from -100 to 100");
+                };
+                plain.stretched(radius).map_or_else(
+                    || refused(params, "radius", radius, "a radius above 0 (pixels)"),
                     Self::Mitchell,
                 )
             }
             "catmullrom" => Self::CatmullRom(CatmullRom),
             "lanczos" => {
                 let lobes = params.integer_or("lobes", Lanczos::DEFAULT_LOBES.into());
-                u32::try_from(lobes)
-                    .ok()
-                    .and_then(Lanczos::new)
-                    .map_or_else(
-                        || {
-                            let accepted =
-                                format!("a whole number from 1 to {}", Lanczos::MOST_LOBES);
-                            refused(params, "lobes", lobes, &accepted)
-                        },
-                        Self::Lanczos,
-                    )
+                let Some(whole) = u32::try_from(lobes).ok().and_then(Lanczos::new) else {
+                    let accepted = format!("a whole number from 1 to {}", Lanczos::MOST_LOBES);
+                    return refused(params, "lobes", lobes, &accepted);
+                };
+                let radius = params.float_or("radius", whole.radius());
+                let accepted = "a radius (pixels) above 0, at most twice `lobes`";
+                whole.cut_at(radius).map_or_else(
+                    || refused(params, "radius", radius, accepted),
+                    Self::Lanczos,
+                )
             }
             other => {
                 params.diagnostics.push(
@@ -117,7 +128,7 @@ impl Filter {
     /// The name of its plugin.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Box(_) => "box",
+            Self::Box(_) | Self::WideBox(_) => "box",
             Self::Tent(_) => "tent",
             Self::Gaussian(_) => "gaussian",
             Self::Mitchell(_) => "mitchell",
@@ -130,6 +141,7 @@ impl Filter {
     pub fn eval(&self, x: f64) -> f64 {
         match self {
             Self::Box(f) => f.eval(x),
+            Self::WideBox(f) => f.eval(x),
             Self::Tent(f) => f.eval(x),
             Self::Gaussian(f) => f.eval(x),
             Self::Mitchell(f) => f.eval(x),
@@ -142,9 +154,10 @@ impl Filter {
     pub fn radius(&self) -> f64 {
         match self {
             Self::Box(_) => BoxFilter::RADIUS,
+            Self::WideBox(f) => f.radius(),
             Self::Tent(f) => f.radius(),
             Self::Gaussian(f) => f.radius(),
-            Self::Mitchell(_) => Mitchell::RADIUS,
+            Self::Mitchell(f) => f.radius(),
             Self::CatmullRom(_) => CatmullRom::RADIUS,
             Self::Lanczos(f) => f.radius(),
         }
@@ -157,6 +170,7 @@ impl std::fmt::Display for Filter {
         f.write_str(self.name())?;
         match self {
             Self::Box(_) | Self::CatmullRom(_) => Ok(()),
+            Self::WideBox(wide) => write!(f, " radius={}", wide.radius()),
             Self::Tent(tent) => write!(f, " radius={}", tent.radius()),
             Self::Gaussian(gaussian) => {
                 write!(f, " stddev={}", gaussian.deviation())?;
@@ -167,9 +181,19 @@ impl std::fmt::Display for Filter {
             }
             Self::Mitchell(mitchell) => {
                 let [b, c] = mitchell.parameters();
-                write!(f, " B={b} C={c}")
+                write!(f, " B={b} C={c}")?;
+                match mitchell.radius() == Mitchell::DEFAULT_RADIUS {
+                    true => Ok(()),
+                    false => write!(f, " radius={}", mitchell.radius()),
+                }
             }
-            Self::Lanczos(lanczos) => write!(f, " lobes={}", lanczos.lobes()),
+            Self::Lanczos(lanczos) => {
+                write!(f, " lobes={}", lanczos.lobes())?;
+                match lanczos.is_cut() {
+                    true => write!(f, " radius={}", lanczos.radius()),
+                    false => Ok(()),
+                }
+            }
         }
     }
 }

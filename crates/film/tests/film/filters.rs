@@ -1,6 +1,8 @@
 //! Filters: values against Mitsuba's, integrals against closed forms, sampling against both.
 
-use etalon_film::{BoxFilter, CatmullRom, Filter, Gaussian, Lanczos, Mitchell, PixelFilter, Tent};
+use etalon_film::{
+    BoxFilter, CatmullRom, Filter, Gaussian, Lanczos, Mitchell, PixelFilter, Tent, WideBox,
+};
 use glam::Vec2;
 
 fn tent(radius: f64) -> Filter {
@@ -17,6 +19,18 @@ fn mitchell(b: f64, c: f64) -> Filter {
 
 fn lanczos(lobes: u32) -> Filter {
     Filter::Lanczos(Lanczos::new(lobes).expect("valid"))
+}
+
+/// pbrt's `mitchell` of another radius.
+fn stretched(radius: f64) -> Filter {
+    let plain = Mitchell::new(0.2, 0.5).expect("valid");
+    Filter::Mitchell(plain.stretched(radius).expect("valid"))
+}
+
+/// pbrt's `sinc` with tau = 3.
+fn cut(radius: f64) -> Filter {
+    let whole = Lanczos::new(3).expect("valid");
+    Filter::Lanczos(whole.cut_at(radius).expect("valid"))
 }
 
 fn all() -> Vec<Filter> {
@@ -36,6 +50,10 @@ fn all() -> Vec<Filter> {
         lanczos(2),
         lanczos(3),
         lanczos(6),
+        Filter::WideBox(WideBox::new(1.25).expect("valid")),
+        stretched(3.0),
+        cut(4.0),
+        cut(2.5),
     ]
 }
 
@@ -121,7 +139,8 @@ fn values_are_mitsubas() {
     );
     let radii = all().iter().map(Filter::radius).collect::<Vec<_>>();
     let expected = [
-        0.5, 1.0, 2.25, 2.0, 6.8, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 1.0, 2.0, 3.0, 6.0,
+        0.5, 1.0, 2.25, 2.0, 6.8, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 1.0, 2.0, 3.0, 6.0, 1.25, 3.0, 4.0,
+        2.5,
     ];
     assert_eq!(radii, expected);
 }
@@ -239,4 +258,34 @@ fn constructors_refuse_what_is_no_filter() {
     assert!(Mitchell::new(0.0, f64::INFINITY).is_none());
     assert!(Lanczos::new(0).is_none());
     assert!(Lanczos::new(65).is_none());
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(WideBox::new(bad).is_none(), "{bad}");
+        let mitchell = Mitchell::new(0.3, 0.3).expect("valid");
+        assert!(mitchell.stretched(bad).is_none(), "{bad}");
+        assert!(
+            Lanczos::new(3).expect("valid").cut_at(bad).is_none(),
+            "{bad}"
+        );
+    }
+}
+
+/// A stretched cubic is the same at as much of its radius; a windowed sinc goes on beyond its window, and stops.
+#[test]
+fn radii_of_their_own() {
+    for x in [0.0, 0.3, 0.9, 1.4, 2.1] {
+        let plain = mitchell(0.2, 0.5).eval(x / 1.5);
+        assert!((stretched(3.0).eval(x) - plain).abs() < 1e-12, "{x}");
+    }
+    let sinc =
+        |x: f64| etalon_math::float64::sin(std::f64::consts::PI * x) / (std::f64::consts::PI * x);
+    for x in [0.4, 2.2, 3.5] {
+        let found = cut(4.0).eval(x);
+        assert!((found - sinc(x) * sinc(x / 3.0)).abs() < 1e-12, "{x}");
+    }
+    assert!(cut(4.0).eval(3.5) > 0.01 && cut(2.5).eval(2.6) == 0.0);
+    let wide = Filter::WideBox(WideBox::new(1.25).expect("valid"));
+    assert_eq!([wide.eval(1.2), wide.eval(1.3)], [1.0, 0.0]);
+    assert_eq!(wide.to_string(), "box radius=1.25");
+    assert_eq!(stretched(3.0).to_string(), "mitchell B=0.2 C=0.5 radius=3");
+    assert_eq!(cut(4.0).to_string(), "lanczos lobes=3 radius=4");
 }

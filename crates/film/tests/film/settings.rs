@@ -157,8 +157,8 @@ fn mistakes_are_told() {
         "from 1 to 64",
     );
     error(
-        filter("box", vec![("radius", Value::Float(1.0))]),
-        "`radius` must be 0.5",
+        filter("box", vec![("radius", Value::Float(-1.0))]),
+        "above 0",
     );
     let two = vec![
         ("", filter_node("box", vec![])),

@@ -59,12 +59,13 @@ fn dot<const M: usize, const N: usize, const L: usize>(a: &[DVec3; M], b: &[DVec
 }
 
 impl RoundSpline {
-    /// Reads `filename` and `to_world` of `beziercurve`.
+    /// Reads `filename`, `coordinates` and `to_world` of `beziercurve`.
     pub(crate) fn bezier_curves(
         params: &Params<'_>,
         build: &mut dyn Build,
     ) -> Option<Curves<Self>> {
-        Curves::in_steps(params, build, (3, Self::of_bezier))
+        let curves = Curves::in_steps(params, build, (3, Self::of_bezier));
+        curves.map(|curves| curves.with_coordinates(params))
     }
 
     fn of_bezier(points: &[ControlPoint]) -> Self {

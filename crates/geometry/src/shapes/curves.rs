@@ -2,6 +2,9 @@
 //!
 //! `to_world` maps points; radii are world lengths and not scaled. Each segment is a primitive. Curves are seen from
 //! outside only, as in Mitsuba, and cannot be lights.
+//!
+//! Texture coordinates are (around, along): the angle, and the place along all segments. With `coordinates` = `along` they are
+//! (along, around), along each segment by itself, as pbrt-v4 has them. The material `hair` wants the former.
 
 pub mod control_points;
 mod strands;
@@ -57,6 +60,8 @@ type SegmentRule<S> = (usize, fn(&[ControlPoint]) -> S);
 #[derive(Clone, Debug)]
 pub struct Curves<S> {
     segments: Vec<S>,
+    /// Whether u counts along each segment.
+    is_along: bool,
 }
 
 impl<S: Segment> Curves<S> {
@@ -144,7 +149,17 @@ impl<S: Segment> Curves<S> {
             }
             segments.extend(placed.windows(least).step_by(step).map(segment));
         }
-        Ok(Self { segments })
+        Ok(Self {
+            segments,
+            is_along: false,
+        })
+    }
+
+    /// Reads `coordinates`.
+    pub(crate) fn with_coordinates(mut self, params: &Params<'_>) -> Self {
+        let coordinates = params.choice("coordinates", "around", &["around", "along"]);
+        self.is_along = coordinates == "along";
+        self
     }
 }
 
@@ -186,12 +201,21 @@ impl<S: Segment> ShapeModel for Curves<S> {
         let turn = core::f64::consts::TAU;
         let around = (angle / turn).rem_euclid(1.0);
         let count = self.segments.len() as f64;
+        let turned = point.tangent.cross(point.radial) * turn;
+        let (uv, dp_du, dp_dv) = match self.is_along {
+            true => (DVec2::new(parameter, around), point.along, turned),
+            false => (
+                DVec2::new(around, (parameter + index as f64) / count),
+                turned,
+                point.along * count,
+            ),
+        };
         Some(LocalInteraction::exact(
             point.axis + point.radial,
             point.normal.normalize(),
-            Vec2::new(around as f32, ((parameter + index as f64) / count) as f32),
-            point.tangent.cross(point.radial) * turn,
-            point.along * count,
+            uv.as_vec2(),
+            dp_du,
+            dp_dv,
         ))
     }
 

@@ -183,3 +183,42 @@ fn mistakes() {
     let (shape, messages) = make("linearcurve", Vec::new());
     assert!(shape.is_none() && messages.contains("filename"));
 }
+
+/// Coordinates along each of three pieces are the usual ones in other order, of a piece instead of all.
+///
+/// Mutants refused: u along all pieces, ∂p/∂u around.
+#[test]
+fn coordinates_may_run_along_each_piece() {
+    let bezier = |coordinates: &str| {
+        let properties = vec![
+            ("filename", Value::String("bezier".into())),
+            ("coordinates", Value::String(coordinates.into())),
+        ];
+        let (shape, messages) = make("beziercurve", properties);
+        geometry_of([shape.unwrap_or_else(|| panic!("{messages}"))])
+    };
+    let [around, along] = ["around", "along"].map(bezier);
+    let mut random = Random(5);
+    let mut seen = [0; 3];
+    for _ in 0..2000 {
+        let origin = random.point() * 1.2;
+        let ray = Ray::new(origin, (random.point() * 0.4 - origin).normalize(), 0.0);
+        let (Some(a), Some(b)) = (around.intersect(&ray), along.intersect(&ray)) else {
+            continue;
+        };
+        let (a, b) = (around.vertex(&ray, &a), along.vertex(&ray, &b));
+        let whole = 3.0 * a.uv.y;
+        if (whole - whole.round()).abs() < 1e-4 {
+            continue;
+        }
+        seen[whole as usize] += 1;
+        assert!(
+            (b.uv.x - whole.fract()).abs() < 1e-5 && b.uv.y == a.uv.x,
+            "{} {}",
+            a.uv,
+            b.uv
+        );
+        assert!(b.dp_dv == a.dp_du && (b.dp_du * 3.0 - a.dp_dv).length() < 1e-4 * a.dp_dv.length());
+    }
+    assert!(seen.iter().all(|count| *count > 10), "{seen:?}");
+}

@@ -300,13 +300,6 @@ pub(super) const LIST: &[Ignored] = &[
         &["irr_samples", "quality", "sample_multiplier"],
         "They choose how finely Mitsuba 0.6 spread points over the surface; here nothing is interpolated.",
     ),
-    of(
-        Class::ReconstructionFilter,
-        &["box"],
-        &["radius"],
-        "A wider or narrower `box` is not built; a `tent` has a `radius`.",
-    )
-    .only("0.5 (pixels), so that a box is a pixel", is_half),
 ];
 
 fn number(value: &Value) -> f64 {
@@ -327,10 +320,6 @@ fn is_not_zero(value: &Value) -> bool {
 
 fn is_one(value: &Value) -> bool {
     number(value) == 1.0
-}
-
-fn is_half(value: &Value) -> bool {
-    number(value) == 0.5
 }
 
 fn is_false(value: &Value) -> bool {

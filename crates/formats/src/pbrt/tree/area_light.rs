@@ -4,14 +4,17 @@
 //! `power` Φ makes it Φ / (π A) times that, half of it on either side of two, in which A is the area of one sphere, disk, cylinder, triangle or patch: pbrt makes a light of each,
 //! so a mesh of n triangles has n Φ. Of quadrics A is measured in their own space, before the CTM. The colour of an `rgb` does not count in
 //! that either; of an image its mean luminance does. An image is looked up by (u, v), counted from the bottom, between its texels.
+//!
+//! Where a shape has holes (`alpha`), it does not shine: the radiance is multiplied by the share of it that is there.
 
 use super::super::parameters::Parameters;
 use super::super::scene::Entity;
 use super::Mapper;
-use super::node::{Draft, given, word};
+use super::node::{Draft, Given, given, word};
 use super::picture::luminance;
 use super::spectrum::Role;
-use super::textures::Rows;
+use super::texture_kinds::mixed;
+use super::textures::{Rows, times};
 use etalon_params::{Class, Node, Value};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -22,10 +25,10 @@ impl<'a> Mapper<'a> {
         &mut self,
         light: &'a Entity,
         area: Option<f64>,
-        has_alpha: bool,
+        alpha: Option<&Given>,
     ) -> Option<Arc<Node>> {
         let params = self.read(light);
-        let found = self.area_light_of(&params, area, has_alpha);
+        let found = self.area_light_of(&params, area, alpha);
         params.finish();
         found
     }
@@ -34,15 +37,16 @@ impl<'a> Mapper<'a> {
         &mut self,
         params: &Parameters<'a>,
         area: Option<f64>,
-        has_alpha: bool,
+        alpha: Option<&Given>,
     ) -> Option<Arc<Node>> {
         let scale = light_scale(params);
         let power = params.float("power", -1.0);
         let image = params.string("filename");
         let spectrum = params.spectrum("L");
         let twosided = params.boolean("twosided", false);
-        if has_alpha {
-            self.refuse_value(params, "L", "shapes with `alpha` that shine", "no `alpha`");
+        if alpha.is_some_and(|alpha| matches!(alpha.value, Value::Float(x) if x <= 0.0)) {
+            let what = "lights that are not seen (an `alpha` of 0 on what shines)";
+            self.refuse_value(params, "L", what, "an `alpha` above 0, or a point light");
             return None;
         }
         let mut factor = scale;
@@ -79,16 +83,37 @@ impl<'a> Mapper<'a> {
             let lit = Draft::new(Class::Texture, "d65", span)
                 .child(picture.node())
                 .plain("scale", Value::Float(factor));
-            return Some(draft.given("radiance", lit.value()).node());
+            let radiance = where_it_is(lit.value(), alpha);
+            return Some(draft.given("radiance", radiance).node());
         }
         let radiance = match spectrum {
             None if params.has("L") => return None,
             None => Self::white_light(factor),
             Some(value) => self.spectrum(params, "L", value, Role::Emission(factor))?,
         };
-        let radiance = given(radiance, params.span("L"));
+        let radiance = where_it_is(given(radiance, params.span("L")), alpha);
         Some(draft.given("radiance", radiance).node())
     }
+}
+
+/// The radiance of a shape that has holes.
+fn where_it_is(radiance: Given, alpha: Option<&Given>) -> Given {
+    let Some(alpha) = alpha else {
+        return radiance;
+    };
+    if let Value::Float(share) = alpha.value {
+        return times(radiance, share);
+    }
+    // Within a texture, numbers and colours are no light by themselves.
+    let span = radiance.span;
+    let lamp = Draft::new(Class::Texture, "d65", span);
+    let lit = match radiance.value {
+        Value::Float(x) => lamp.plain("scale", Value::Float(x)).value(),
+        Value::Rgb(rgb) => lamp.plain("color", Value::Rgb(rgb)).value(),
+        other => given(other, span),
+    };
+    let dark = given(Value::Float(0.0), span);
+    mixed(span, dark, lit, alpha.clone())
 }
 
 /// The `scale` of a light.

@@ -6,7 +6,8 @@
 //! The screen is a window of the plane at z = 1 in units in which the shorter side of the film reaches from −1 to 1, or what
 //! `screenwindow` says; ±1 is seen at half of `fov`. Mitsuba's `fov` with the axis `smaller` is the same, and another window becomes the `fov`
 //! of x and an offset of the principal point. An orthographic camera of pbrt sees the window itself, Mitsuba's x from −1 to 1: the
-//! rest goes into `to_world`.
+//! rest goes into `to_world`. With a lens, pbrt's orthographic camera sends its rays from one lens about the origin through the window at
+//! `focaldistance` (`OrthographicCamera::GenerateRay`), as a perspective camera does whose window is there.
 //!
 //! pbrt's lens is in camera space, whose lengths an even scale in the CTM changes; Mitsuba's cameras have none, so the lengths are
 //! multiplied instead.
@@ -141,16 +142,33 @@ impl Mapper<'_> {
         Some(window)
     }
 
-    fn perspective(&self, params: &Parameters<'_>, window: Window) -> Option<Draft> {
-        let fov = params.float_where("fov", 90.0, "degrees above 0 and below 180", |fov| {
-            fov > 0.0 && fov < 180.0
-        });
+    /// The radius of the lens, and the distance of what is sharp.
+    fn lens(params: &Parameters<'_>) -> [f64; 2] {
         let radius = params.float_where("lensradius", 0.0, "a finite number from 0 on", |r| {
             r >= 0.0 && r.is_finite()
         });
         let focus = params.float_where("focaldistance", 1e6, "a finite number above 0", |d| {
             d > 0.0 && d.is_finite()
         });
+        [radius, focus]
+    }
+
+    fn perspective(&self, params: &Parameters<'_>, window: Window) -> Option<Draft> {
+        let fov = params.float_where("fov", 90.0, "degrees above 0 and below 180", |fov| {
+            fov > 0.0 && fov < 180.0
+        });
+        let draft = self.through_lens(params, Self::lens(params))?;
+        if !params.has("screenwindow") {
+            let draft = draft.from(params, "fov", "fov", Value::Float(fov));
+            return Some(draft.from(params, "fov", "fov_axis", word("smaller")));
+        }
+        // ±1 of the screen is seen at half of `fov`.
+        let half = float64::tan(fov.to_radians() / 2.0);
+        Some(seeing(params, draft, window, half))
+    }
+
+    /// A camera that sees by a lens or a point, without its field of view.
+    fn through_lens(&self, params: &Parameters<'_>, [radius, focus]: [f64; 2]) -> Option<Draft> {
         let plugin = if radius > 0.0 {
             "thinlens"
         } else {
@@ -184,41 +202,14 @@ impl Mapper<'_> {
                     Value::Float(focus),
                 );
         }
-        if !params.has("screenwindow") {
-            let draft = draft.from(params, "fov", "fov", Value::Float(fov));
-            return Some(draft.from(params, "fov", "fov_axis", word("smaller")));
-        }
-        let [[x0, x1], [y0, y1]] = window;
-        // ±1 of the screen is seen at half of `fov`; Etalon measures across the whole width.
-        let half = float64::tan(fov.to_radians() / 2.0) * 0.5 * (x1 - x0);
-        let across = 2.0 * float64::atan2(half, 1.0).to_degrees();
-        let offset = [0.5 + x0 / (x1 - x0), 0.5 - y1 / (y1 - y0)];
-        let source = "screenwindow";
-        Some(
-            draft
-                .from(params, source, "fov", Value::Float(across))
-                .from(params, source, "fov_axis", word("x"))
-                .from(
-                    params,
-                    source,
-                    "principal_point_offset_x",
-                    Value::Float(offset[0]),
-                )
-                .from(
-                    params,
-                    source,
-                    "principal_point_offset_y",
-                    Value::Float(offset[1]),
-                ),
-        )
+        Some(draft)
     }
 
     fn orthographic(&self, params: &Parameters<'_>, [x, y]: Window) -> Option<Draft> {
-        let radius = params.float("lensradius", 0.0);
-        params.ignore(&["focaldistance"]);
-        if radius != 0.0 {
-            self.refuse_value(params, "lensradius", "lens of `orthographic`", "0");
-            return None;
+        let [radius, focus] = Self::lens(params);
+        if radius > 0.0 {
+            let draft = self.through_lens(params, [radius, focus])?;
+            return Some(seeing(params, draft, [x, y], 1.0 / focus));
         }
         let middle = |[a, b]: [f64; 2]| 0.5 * (a + b);
         // In Mitsuba's camera space x runs to the left.
@@ -276,4 +267,15 @@ impl Mapper<'_> {
         let to_world = self.to_world(&inverse, local, span)?;
         Some(placed(draft, given(to_world.value, span)))
     }
+}
+
+/// Adds the field of view of a window, whose ±1 is seen at angles of the tangent `half`; Etalon measures across the whole width.
+fn seeing(params: &Parameters<'_>, draft: Draft, window: Window, half: f64) -> Draft {
+    let [[x0, x1], [y0, y1]] = window;
+    let across = 2.0 * float64::atan2(half * 0.5 * (x1 - x0), 1.0).to_degrees();
+    let source = "screenwindow";
+    let number = |draft: Draft, name, x| draft.from(params, source, name, Value::Float(x));
+    let draft = number(draft, "fov", across).from(params, source, "fov_axis", word("x"));
+    let draft = number(draft, "principal_point_offset_x", 0.5 + x0 / (x1 - x0));
+    number(draft, "principal_point_offset_y", 0.5 - y1 / (y1 - y0))
 }

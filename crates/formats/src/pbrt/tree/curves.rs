@@ -62,9 +62,10 @@ pub(crate) fn run(shapes: &[Shape]) -> usize {
 impl<'a> Mapper<'a> {
     /// A curve, and those that follow it; `None` after a mistake.
     pub(crate) fn curves(&mut self, params: &Parameters<'a>, wanted: &Wanted<'a>) -> Option<Form> {
-        if wanted.by_uv {
-            let what = "texture coordinates of a `curve`";
-            let accepted = "materials without images and patterns";
+        let material = self.scene.materials[wanted.shape.material].entity.kind;
+        if wanted.by_uv && material == "hair" {
+            let what = "texture coordinates of a `curve` of `hair`";
+            let accepted = "other materials, and hair without images and patterns";
             self.refuse_value(params, "P", what, accepted);
             params.entity.params.iter().for_each(|p| p.mark_used());
             return None;
@@ -127,7 +128,15 @@ impl<'a> Mapper<'a> {
             text.push('\n');
         }
         self.embedded.push(Arc::new(text.into_bytes()));
-        Some(draft.plain("filename", word(&name)))
+        let draft = draft.plain("filename", word(&name));
+        if !wanted.by_uv {
+            return Some(draft);
+        }
+        let message =
+            "v counts around this curve, where pbrt counts it across the width that is seen";
+        let help = "u is the same: along each segment";
+        self.note(params.entity.span, message, help);
+        Some(draft.plain("coordinates", word("along")))
     }
 
     fn note_flat_curves(&self, params: &Parameters<'_>, wanted: &Wanted<'_>, any: bool) {

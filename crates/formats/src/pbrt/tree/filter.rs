@@ -3,11 +3,11 @@
 //!
 //! | pbrt | Etalon |
 //! |---|---|
-//! | box, radius ½ | `box` |
+//! | box | `box`, whose r is ½ unless `radius` says otherwise |
 //! | triangle, max(0, r − |x|) | `tent` |
 //! | gaussian, e^(−x²/2σ²) − e^(−r²/2σ²) | `gaussian`, whose r is 4σ unless `radius` says otherwise |
-//! | mitchell over 2x/r | `mitchell`, with r = 2 |
-//! | sinc, sinc(x) sinc(x/τ) for |x| < r | `lanczos` of τ lobes if τ is an integer: it ends at τ |
+//! | mitchell over 2x/r | `mitchell`, whose r is 2 unless `radius` says otherwise |
+//! | sinc, sinc(x) sinc(x/τ) for |x| < r | `lanczos` of τ lobes if τ is an integer, whose r is τ unless `radius` says otherwise |
 
 use super::super::parameters::Parameters;
 use super::Mapper;
@@ -29,12 +29,7 @@ impl Mapper<'_> {
         match params.entity.kind {
             "box" => {
                 let radius = self.radius(params, 0.5)?;
-                if radius != 0.5 {
-                    let what = format!("`box` of the radius {radius}");
-                    self.refuse_value(params, "xradius", &what, "0.5");
-                    return None;
-                }
-                Some(draft("box"))
+                Some(with_radius(params, draft("box"), radius, 0.5))
             }
             "triangle" => {
                 let radius = Value::Float(self.radius(params, 2.0)?);
@@ -43,42 +38,29 @@ impl Mapper<'_> {
             "mitchell" => {
                 let radius = self.radius(params, 2.0)?;
                 let parts = ["B", "C"].map(|name| params.float(name, 1.0 / 3.0));
-                if radius != 2.0 {
-                    let what = format!("`mitchell` of the radius {radius}");
-                    self.refuse_value(params, "xradius", &what, "2");
-                    return None;
-                }
                 let [b, c] = parts.map(Value::Float);
                 let draft = draft("mitchell").from(params, "B", "B", b);
-                Some(draft.from(params, "C", "C", c))
+                let draft = draft.from(params, "C", "C", c);
+                Some(with_radius(params, draft, radius, 2.0))
             }
             "sinc" => {
                 let radius = self.radius(params, 4.0)?;
                 let tau = params.float("tau", 3.0);
-                if radius < tau || tau.fract() != 0.0 || !(1.0..1e6).contains(&tau) {
+                if tau.fract() != 0.0 || !(1.0..=64.0).contains(&tau) || radius > 2.0 * tau {
                     let what = format!("`sinc` of the radius {radius} with tau = {tau}");
-                    let accepted = "an integer from 1 on for `tau`, and radii not below it";
+                    let accepted = "an integer from 1 to 64 for `tau`, and radii up to twice it";
                     self.refuse_value(params, "tau", &what, accepted);
                     return None;
                 }
-                if radius > tau {
-                    let message =
-                        format!("the filter `sinc` ends at {tau}, not at {radius} pixels");
-                    let help = "the lobes beyond are the window's own, and small";
-                    self.note(params.entity.span, message, help);
-                }
                 let lobes = Value::Integer(tau as i64);
-                Some(draft("lanczos").from(params, "tau", "lobes", lobes))
+                let draft = draft("lanczos").from(params, "tau", "lobes", lobes);
+                Some(with_radius(params, draft, radius, tau))
             }
             _ => {
                 let radius = self.radius(params, 1.5)?;
                 let sigma = params.float("sigma", 0.5);
                 let draft = draft("gaussian").from(params, "sigma", "stddev", Value::Float(sigma));
-                let radius = (radius != 4.0 * sigma).then_some(Value::Float(radius));
-                Some(match radius {
-                    Some(radius) => draft.from(params, "xradius", "radius", radius),
-                    None => draft,
-                })
+                Some(with_radius(params, draft, radius, 4.0 * sigma))
             }
         }
     }
@@ -97,5 +79,13 @@ impl Mapper<'_> {
             return None;
         }
         Some(x)
+    }
+}
+
+/// Adds a radius that is not Etalon's own.
+fn with_radius(params: &Parameters<'_>, draft: Draft, radius: f64, own: f64) -> Draft {
+    match radius == own {
+        true => draft,
+        false => draft.from(params, "xradius", "radius", Value::Float(radius)),
     }
 }

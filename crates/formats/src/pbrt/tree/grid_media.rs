@@ -11,12 +11,20 @@ use super::super::parameters::Parameters;
 use super::super::scene::Medium;
 use super::Mapper;
 use super::color_space::to_rec709;
-use super::media::is_dark;
 use super::node::{Draft, Given, given, word};
 use super::spectrum::{Role, samples_of};
 use crate::document::embedded_name;
 use etalon_params::{Class, DMat4, DVec3, Node, SpectrumText, Value};
 use std::sync::Arc;
+
+/// What says that a NanoVDB file has temperatures.
+const NANOVDB_GLOW: [&str; 5] = [
+    "Lescale",
+    "temperaturename",
+    "temperaturescale",
+    "temperatureoffset",
+    "temperaturecutoff",
+];
 
 /// Cells along x, y and z, and the box that they fill.
 struct Cells {
@@ -33,28 +41,19 @@ impl Cells {
     /// A volume file in the unit cube of values, each of `C` numbers, with a layer of zeros around them.
     fn file<const C: usize>(&self, values: &[[f32; C]]) -> Vec<u8> {
         let sizes = self.counts.map(|n| n + 2);
-        let mut bytes = b"VOL\x03".to_vec();
-        let [x, y, z] = sizes.map(|n| n as i32);
-        for word in [1, x, y, z, C as i32] {
-            bytes.extend(word.to_le_bytes());
-        }
-        for corner in [0.0_f32, 0.0, 0.0, 1.0, 1.0, 1.0] {
-            bytes.extend(corner.to_le_bytes());
-        }
         let [nx, ny, nz] = self.counts;
         let within = |i: usize, n: usize| (1..=n).contains(&i).then(|| i - 1);
-        for z in 0..sizes[2] {
-            for y in 0..sizes[1] {
-                for x in 0..sizes[0] {
-                    let place = within(x, nx).zip(within(y, ny)).zip(within(z, nz));
-                    let value = place.and_then(|((x, y), z)| values.get((z * ny + y) * nx + x));
-                    for number in value.copied().unwrap_or([0.0; C]) {
-                        bytes.extend(number.to_le_bytes());
-                    }
-                }
-            }
-        }
-        bytes
+        let places = (0..sizes.iter().product()).map(|i: usize| {
+            let [x, y, z] = [
+                i % sizes[0],
+                i / sizes[0] % sizes[1],
+                i / sizes[0] / sizes[1],
+            ];
+            let place = within(x, nx).zip(within(y, ny)).zip(within(z, nz));
+            let value = place.and_then(|((x, y), z)| values.get((z * ny + y) * nx + x));
+            value.copied().unwrap_or([0.0; C])
+        });
+        volume_file(sizes, places)
     }
 
     /// From the unit cube of such a file to the box and the layer around it.
@@ -65,6 +64,24 @@ impl Cells {
     }
 }
 
+/// A volume file in the unit cube, whose values are given x fastest.
+pub(crate) fn volume_file<const C: usize>(
+    sizes: [usize; 3],
+    values: impl IntoIterator<Item = [f32; C]>,
+) -> Vec<u8> {
+    let mut bytes = b"VOL\x03".to_vec();
+    let [x, y, z] = sizes.map(|n| n as i32);
+    for word in [1, x, y, z, C as i32] {
+        bytes.extend(word.to_le_bytes());
+    }
+    let corners = [0.0_f32, 0.0, 0.0, 1.0, 1.0, 1.0];
+    let values = values.into_iter().flatten();
+    for number in corners.into_iter().chain(values) {
+        bytes.extend(number.to_le_bytes());
+    }
+    bytes
+}
+
 impl<'a> Mapper<'a> {
     /// A medium of densities; `None` after a mistake.
     pub(crate) fn uniform_grid(
@@ -73,17 +90,6 @@ impl<'a> Mapper<'a> {
         medium: &Medium,
     ) -> Option<Arc<Node>> {
         let cells = cells(params)?;
-        if params.floats("temperature").is_some() {
-            params.ignore(&[
-                "temperature",
-                "temperaturescale",
-                "temperatureoffset",
-                "temperaturecutoff",
-            ]);
-            let what = "media that glow by a `temperature`";
-            self.refuse_value(params, "temperature", what, "`Le` with `Lescale`");
-            return None;
-        }
         let density = self.cell_values(params, "density", &cells, medium)?;
         let strength = match params.floats("Lescale") {
             Some([one]) => Some(given(Value::Float(*one), params.span("Lescale"))),
@@ -91,7 +97,19 @@ impl<'a> Mapper<'a> {
             None => None,
         };
         let draft = self.by_density(params, density)?;
-        self.glowing(params, draft, strength)
+        if !params.has("temperature") {
+            return Some(self.glowing(params, draft, strength)?.node());
+        }
+        if params.has("Le") {
+            params.error_at(
+                "Le",
+                "a medium glows either by `Le` or by its `temperature`",
+            );
+            params.ignore(&["Le"]);
+            return None;
+        }
+        let temperature = self.cell_values(params, "temperature", &cells, medium)?;
+        Some(self.hot(params, draft, temperature, strength).node())
     }
 
     /// A medium of a NanoVDB file; `None` after a mistake.
@@ -104,27 +122,35 @@ impl<'a> Mapper<'a> {
             params.missing("string filename");
             return None;
         };
-        let grid = params.string("gridname").unwrap_or("density");
         let to_world = self.still(&medium.placement, "media", params.entity.span);
-        let mut volume = Draft::of(params, Class::Volume, "gridvolume")
-            .from(params, "filename", "filename", word(filename))
-            .from(params, "gridname", "grid_name", word(grid));
-        if to_world != DMat4::IDENTITY {
-            volume = volume.plain("to_world", Value::Transform(to_world));
+        let volume = |grid: Given| {
+            let volume = Draft::of(params, Class::Volume, "gridvolume")
+                .from(params, "filename", "filename", word(filename))
+                .given("grid_name", grid);
+            match to_world == DMat4::IDENTITY {
+                true => volume.value(),
+                false => volume.plain("to_world", Value::Transform(to_world)).value(),
+            }
+        };
+        let named = |name: &str, default: &str| {
+            let grid = params.string(name).unwrap_or(default);
+            given(word(grid), params.span(name))
+        };
+        let draft = self.by_density(params, volume(named("gridname", "density")))?;
+        let temperature = volume(named("temperaturename", "temperature"));
+        let strength = params.float("Lescale", 1.0);
+        let is_said = NANOVDB_GLOW.iter().any(|name| params.has(name));
+        if is_said && strength > 0.0 {
+            let strength = given(Value::Float(strength), params.span("Lescale"));
+            return Some(self.hot(params, draft, temperature, Some(strength)).node());
         }
-        // What its temperatures would emit.
-        params.ignore(&[
-            "temperaturename",
-            "temperaturescale",
-            "temperatureoffset",
-            "temperaturecutoff",
-        ]);
-        if params.float("Lescale", 1.0) > 0.0 {
-            let message = "the temperatures of a NanoVDB file do not glow here";
-            let help = "`\"float Lescale\" 0` says that they need not";
+        params.ignore(&NANOVDB_GLOW);
+        if strength > 0.0 {
+            let message =
+                "whether this file has temperatures is not looked at: it does not glow here";
+            let help = "`\"float Lescale\" 1` says that it has a grid of them, and 0 that it need not glow";
             self.note(params.entity.span, message, help);
         }
-        let draft = self.by_density(params, volume.value())?;
         Some(draft.node())
     }
 
@@ -135,9 +161,9 @@ impl<'a> Mapper<'a> {
         medium: &Medium,
     ) -> Option<Arc<Node>> {
         let cells = cells(params)?;
-        let absorbed = self.cell_colours(params, "sigma_a", &cells)?;
-        let scattered = self.cell_colours(params, "sigma_s", &cells)?;
-        let emitted = self.cell_colours(params, "Le", &cells)?;
+        let absorbed = self.cell_colours(params, ("sigma_a", Role::Unbounded), &cells)?;
+        let scattered = self.cell_colours(params, ("sigma_s", Role::Unbounded), &cells)?;
+        let emitted = self.cell_colours(params, ("Le", Role::Emission(1.0)), &cells)?;
         if absorbed.is_none() && scattered.is_none() {
             params.missing("rgb sigma_s");
             return None;
@@ -183,7 +209,7 @@ impl<'a> Mapper<'a> {
     }
 
     /// σₜ and albedo of a medium whose densities are given, and its phase function.
-    fn by_density(&mut self, params: &Parameters<'a>, density: Given) -> Option<Draft> {
+    pub(crate) fn by_density(&mut self, params: &Parameters<'a>, density: Given) -> Option<Draft> {
         let names = ["sigma_a", "sigma_s"];
         let curve = |mapper: &mut Self, name: &str| match params.spectrum(name) {
             None if params.has(name) => None,
@@ -234,37 +260,6 @@ impl<'a> Mapper<'a> {
         draft.child(phase.from(params, "g", "g", Value::Float(g)).node())
     }
 
-    /// What a medium emits, `strength` times the spectrum `Le`.
-    fn glowing(
-        &mut self,
-        params: &Parameters<'a>,
-        draft: Draft,
-        strength: Option<Given>,
-    ) -> Option<Arc<Node>> {
-        let Some(emitted) = params.spectrum("Le").filter(|emitted| !is_dark(emitted)) else {
-            return Some(draft.node());
-        };
-        let factor = match &strength {
-            Some(Given {
-                value: Value::Float(factor),
-                ..
-            }) => *factor,
-            _ => 1.0,
-        };
-        let light = self.spectrum(params, "Le", emitted, Role::Emission(factor))?;
-        let light = given(light, params.span("Le"));
-        Some(
-            match strength.filter(|s| matches!(s.value, Value::Object(_))) {
-                None => draft.given("emission", light).node(),
-                Some(grid) => {
-                    let product = Draft::of(params, Class::Texture, "multiply");
-                    let product = product.given("a", grid).given("b", light);
-                    draft.given("emission", product.value()).node()
-                }
-            },
-        )
-    }
-
     /// A grid of the numbers of a parameter; `None` after a mistake.
     fn cell_values(
         &mut self,
@@ -293,7 +288,7 @@ impl<'a> Mapper<'a> {
     fn cell_colours(
         &mut self,
         params: &Parameters<'a>,
-        name: &str,
+        (name, role): (&str, Role),
         cells: &Cells,
     ) -> Option<Option<Vec<[f32; 3]>>> {
         let Some((colours, space)) = params.rgbs(name) else {
@@ -302,10 +297,10 @@ impl<'a> Mapper<'a> {
         fits(params, name, colours.len(), cells)?;
         let mut found = Vec::with_capacity(colours.len());
         for colour in colours {
-            let converted = to_rec709(*colour, space).map(|rgb| rgb.to_array().map(|c| c as f32));
-            match converted.filter(|rgb| rgb.iter().all(|c| *c >= 0.0 && c.is_finite())) {
-                Some(rgb) => found.push(rgb),
-                None => {
+            let rgb = to_rec709(*colour, space, role).to_array();
+            match rgb.map(|c| c as f32) {
+                rgb if rgb.iter().all(|c| *c >= 0.0 && c.is_finite()) => found.push(rgb),
+                _ => {
                     let [r, g, b] = colour;
                     params.refuse(
                         name,
@@ -342,17 +337,23 @@ impl<'a> Mapper<'a> {
 /// The cells of a medium; `None` after a mistake.
 fn cells(params: &Parameters<'_>) -> Option<Cells> {
     let counts = ["nx", "ny", "nz"].map(|name| params.integer_from(name, 1, 1));
+    let [low, high] = box_of(params)?;
+    Some(Cells {
+        counts: counts.map(|n| n.unsigned_abs() as usize),
+        low,
+        high,
+    })
+}
+
+/// The box from `p0` to `p1`; `None` after a mistake.
+pub(crate) fn box_of(params: &Parameters<'_>) -> Option<[DVec3; 2]> {
     let [a, b] = [("p0", DVec3::ZERO), ("p1", DVec3::ONE)].map(|(n, p)| params.point3(n, p));
     let (low, high) = (a.min(b), a.max(b));
     if (high - low).min_element() <= 0.0 {
         params.error_at("p1", "the box from `p0` to `p1` has no volume");
         return None;
     }
-    Some(Cells {
-        counts: counts.map(|n| n.unsigned_abs() as usize),
-        low,
-        high,
-    })
+    Some([low, high])
 }
 
 /// Says if there are more or fewer values than cells.

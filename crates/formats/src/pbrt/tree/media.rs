@@ -26,15 +26,8 @@ impl<'a> Mapper<'a> {
             "uniformgrid" => self.uniform_grid(&params, medium),
             "rgbgrid" => self.rgb_grid(&params, medium),
             "nanovdb" => self.nanovdb(&params, medium),
-            _ => {
-                self.refuse(
-                    &params,
-                    "medium",
-                    "homogeneous, uniformgrid, rgbgrid, nanovdb",
-                );
-                params.entity.params.iter().for_each(|p| p.mark_used());
-                None
-            }
+            // All that pbrt knows are here.
+            _ => self.cloud(&params, medium),
         };
         if found.is_some() {
             params.finish();

@@ -1,15 +1,21 @@
 //! Metals (`materials.cpp`, `ConductorMaterial`; `util/spectrum.cpp` for the names).
 //!
 //! The index is given by `eta` and `k`, by default those of copper, or follows from a `reflectance` r at normal incidence: η = 1 and
-//! k = 2√r / √(1 − r). Named metals are those of the same name in Etalon, whose tables are other measurements.
+//! k = 2√r / √(1 − r). Named metals are those of the same name in Etalon, whose tables are other measurements. Two oxides are transparent and
+//! have formulas, with λ in µm and k = 0:
+//!
+//! ```text
+//! MgO    n² = 2.956362 − 0.01062387 λ² − 0.0000204968 λ⁴ + 0.0219577/(λ² − 0.01428322)     (R. E. Stephens, I. H. Malitson 1952)
+//! TiO2   n² = 5.913 + 0.2441/(λ² − 0.0803)                                                 (J. R. Devore 1951: rutile, ordinary ray)
+//! ```
 
 use super::super::parameters::Parameters;
 use super::super::spectrum_value::{SpectrumOrTexture, SpectrumValue};
 use super::Mapper;
 use super::node::{Draft, Given, given, word};
 use super::spectrum::{Role, computed, samples_of};
-use etalon_params::{Node, Span, SpectrumText, Value};
-use etalon_spectrum::conductors;
+use etalon_params::{Class, Node, Span, SpectrumText, Value};
+use etalon_spectrum::{LAMBDA_MAX, LAMBDA_MIN, conductors};
 use std::sync::Arc;
 
 /// The reflectance that counts for one of 1, as in pbrt.
@@ -60,8 +66,15 @@ impl<'a> Mapper<'a> {
         if let [Some(a), Some(b)] = own
             && a == b
         {
-            self.metal(params, &eta, a)?;
-            return Some(Metal::Named(a, params.span(&eta)));
+            let [own_eta, own_k] = self.metal(params, &eta, a)?;
+            let places = [params.span(&eta), params.span(&k)];
+            return Some(match conductors::lookup(a) {
+                Some(_) => Metal::Named(a, places[0]),
+                None => Metal::Index(Box::new([
+                    given(own_eta, places[0]),
+                    given(own_k, places[1]),
+                ])),
+            });
         }
         let mut part = |parameter: &str, own: Option<&'a str>, is_eta: bool| match own {
             Some(metal) => {
@@ -77,9 +90,13 @@ impl<'a> Mapper<'a> {
 
     /// η and k of a metal of Etalon's.
     fn metal(&self, params: &Parameters<'_>, parameter: &str, metal: &str) -> Option<[Value; 2]> {
+        if let Some(eta) = oxide(metal) {
+            let k = Value::Spectrum(SpectrumText::Uniform(0.0));
+            return Some([Value::Spectrum(SpectrumText::Samples(eta)), k]);
+        }
         let Some((eta, k)) = conductors::lookup(metal) else {
             let what = format!("metal `{metal}`");
-            let accepted = "metal-Ag, metal-Al, metal-Au, metal-Cu (each with -eta and -k), or pairs of a wavelength and a value";
+            let accepted = "metal-Ag, -Al, -Au, -Cu, -MgO, -TiO2 (each with -eta and -k), or pairs of a wavelength and a value";
             self.refuse_value(params, parameter, &what, accepted);
             return None;
         };
@@ -91,17 +108,21 @@ impl<'a> Mapper<'a> {
     }
 
     fn metal_of_reflectance(&mut self, params: &Parameters<'a>, name: &str) -> Option<Metal<'a>> {
-        let SpectrumOrTexture::Value(value) = params.spectrum_texture(name)? else {
-            let what = format!("`{}` of a textured reflectance", params.entity.kind);
-            self.refuse_value(params, name, &what, "a spectrum or an rgb colour");
-            return None;
-        };
-        let curve = self.curve(params, name, value, Role::Reflectance)?;
-        let k = computed(&curve, |r| {
-            let r = r.clamp(0.0, MOST_REFLECTANCE);
-            2.0 * r.sqrt() / (1.0 - r).sqrt()
-        });
         let span = params.span(name);
+        let k = match params.spectrum_texture(name)? {
+            SpectrumOrTexture::Texture(_) => {
+                let reflectance = self.colour_if_given(params, name, Role::Reflectance)?;
+                let k = Draft::new(Class::Texture, "extinction", span);
+                k.given("reflectance", reflectance).value().value
+            }
+            SpectrumOrTexture::Value(value) => {
+                let curve = self.curve(params, name, value, Role::Reflectance)?;
+                computed(&curve, |r| {
+                    let r = r.clamp(0.0, MOST_REFLECTANCE);
+                    2.0 * r.sqrt() / (1.0 - r).sqrt()
+                })
+            }
+        };
         let one = Value::Spectrum(SpectrumText::Uniform(1.0));
         let index = [given(one, span), given(k, span)];
         Some(Metal::Index(Box::new(index)))
@@ -114,6 +135,24 @@ enum Metal<'a> {
     Named(&'a str, Span),
     /// η and k.
     Index(Box<[Given; 2]>),
+}
+
+/// The index of an oxide at every nanometre.
+fn oxide(name: &str) -> Option<Vec<(f64, f64)>> {
+    let squared = |square: f64| match name {
+        "MgO" => Some(
+            2.956_362 - 0.010_623_87 * square - 0.000_020_496_8 * square * square
+                + 0.021_957_70 / (square - 0.014_283_22),
+        ),
+        "TiO2" => Some(5.913 + 0.2441 / (square - 0.0803)),
+        _ => None,
+    };
+    let wavelengths = LAMBDA_MIN as i32..=LAMBDA_MAX as i32;
+    let sample = |nm: i32| {
+        let micrometres = f64::from(nm) * 1e-3;
+        Some((f64::from(nm), squared(micrometres * micrometres)?.sqrt()))
+    };
+    wavelengths.map(sample).collect()
 }
 
 /// The metal of a name such as `metal-Ag-eta`, which ends as asked; copper if nothing is given.

@@ -11,14 +11,17 @@
 mod area_light;
 mod bilinear;
 mod camera;
+mod cloud_medium;
 mod coated;
 mod color_space;
 mod curves;
 mod dielectrics;
 mod film;
 mod filter;
+mod glowing_media;
 mod grid_media;
 mod hair;
+mod image_textures;
 mod instances;
 mod integrator;
 mod lights;
@@ -44,6 +47,7 @@ mod subsurface;
 #[cfg(test)]
 mod tests;
 mod texture_kinds;
+mod texture_mapping;
 mod textures;
 
 use super::parameters::Parameters;

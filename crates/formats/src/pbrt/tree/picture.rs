@@ -1,4 +1,4 @@
-//! Pictures that the mapping itself must look into: those of lights with a given power or illuminance.
+//! Pictures that the mapping itself must look into: those of lights with a given power or illuminance, and those that are numbers.
 
 use super::super::parameters::Parameters;
 use super::Mapper;
@@ -24,6 +24,17 @@ impl Picture {
     }
 }
 
+/// What a picture is as a number, to pbrt (`util/mipmap.cpp`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Number {
+    /// Its only channel, or any of the three that are the same.
+    Grey,
+    /// Its opacity, if it is not opaque everywhere.
+    Alpha,
+    /// The mean of red, green and blue.
+    Mean,
+}
+
 /// The luminance of a colour in linear Rec. 709.
 pub(crate) fn luminance(rgb: [f32; 3]) -> f64 {
     let [r, g, b] = rgb.map(f64::from);
@@ -31,6 +42,33 @@ pub(crate) fn luminance(rgb: [f32; 3]) -> f64 {
 }
 
 impl Mapper<'_> {
+    /// What a picture is as a number. Of a file that cannot be read the texture itself complains.
+    pub(crate) fn number_in(&self, filename: &str) -> Number {
+        let read = || {
+            let path = self.scene.search.find(filename)?;
+            let bytes = crate::read_bounded(&path, MOST_BYTES).ok()?;
+            raster_file::decode(&bytes, &path).ok()
+        };
+        let Some(raster) = read() else {
+            return Number::Grey;
+        };
+        let values = raster.to_linear();
+        let mut pixels = values.chunks_exact(raster.channels());
+        let is_clear = |pixel: &[f32]| pixel.last().is_some_and(|alpha| *alpha != 1.0);
+        if raster.has_alpha() && pixels.clone().any(is_clear) {
+            return Number::Alpha;
+        }
+        let is_grey = |pixel: &[f32]| match *pixel {
+            [r, g, b, ..] => r == g && g == b,
+            _ => true,
+        };
+        if pixels.all(is_grey) {
+            Number::Grey
+        } else {
+            Number::Mean
+        }
+    }
+
     /// The picture in the file that the parameter `filename` names; `None` after a mistake.
     pub(crate) fn picture(&self, params: &Parameters<'_>, filename: &str) -> Option<Picture> {
         let search = &self.scene.search;

@@ -2,15 +2,23 @@
 //!
 //! Whether a file has normals and texture coordinates decides how it is shaded, so its header is looked at. Faces of four corners are
 //! bilinear patches in pbrt and two triangles in Etalon, which is the same for parallelograms.
+//!
+//! With a `displacement` the edges are divided until none is longer than `edgelength` in the world, and vertices move along their normals in the
+//! mesh's own space: a `displacement` of Etalon, which does both in the world. That is the same if the CTM does not stretch.
 
 use super::super::parameters::Parameters;
 use super::Mapper;
 use super::meshes::shaded;
-use super::node::word;
+use super::node::{Draft, Given, word};
+use super::placement::mirrors;
 use super::shapes::{Form, Wanted};
+use super::textures::looks_at_place;
 use crate::gzip;
 use crate::ply::{self, Carried};
-use etalon_params::{DMat4, Diagnostic};
+use etalon_params::{Class, DMat4, DVec3, Diagnostic, Value};
+
+/// By how much, of its size, what a CTM does along one axis may differ from another.
+const EVEN: f64 = 1e-5;
 
 /// The most bytes that a header has.
 const MOST_HEADER: u64 = 1 << 20;
@@ -22,19 +30,19 @@ impl<'a> Mapper<'a> {
         params: &Parameters<'a>,
         wanted: &Wanted<'_>,
     ) -> Option<Form> {
-        if params.float_texture("displacement").is_some() {
-            let accepted = "a mesh that is displaced already (`plytool displace` of pbrt)";
-            self.refuse_value(params, "displacement", "displaced meshes", accepted);
+        let height = self.number_if_given(params, "displacement");
+        if height.is_none() && params.has("displacement") {
             return None;
         }
-        // The edge length is for displacement only.
-        params.ignore(&["displacement", "edgelength"]);
+        let edge = params.float_where("edgelength", 1.0, "a finite number above 0", |edge| {
+            edge > 0.0 && edge.is_finite()
+        });
         let Some(filename) = params.string("filename") else {
             params.missing("string filename");
             return None;
         };
         let carried = self.carried_by(params, filename)?;
-        if wanted.by_uv && !carried.uvs {
+        if (wanted.by_uv || height.is_some()) && !carried.uvs {
             let what = "texture coordinates of a mesh that has none";
             let accepted = "a file with them, or materials without images and patterns";
             self.refuse_value(params, "filename", what, accepted);
@@ -42,9 +50,62 @@ impl<'a> Mapper<'a> {
         }
         let draft = self.placed_form(params, wanted, "ply", DMat4::IDENTITY)?;
         let draft = draft.from(params, "filename", "filename", word(filename));
+        if let Some(height) = height {
+            let moved = self.displaced(params, wanted, height)?;
+            let moved = moved.from(params, "edgelength", "edge_length", Value::Float(edge));
+            return Some(Form {
+                drafts: vec![moved.child(draft.node())],
+                area: None,
+            });
+        }
         Some(Form {
             drafts: vec![shaded(draft, wanted, !carried.normals)],
             area: None,
+        })
+    }
+
+    /// A `displacement` without its mesh; `None` after a mistake.
+    fn displaced(
+        &self,
+        params: &Parameters<'_>,
+        wanted: &Wanted<'_>,
+        height: Given,
+    ) -> Option<Draft> {
+        let placement = &wanted.shape.placement;
+        let to_world = placement.start;
+        let refuse = |what: &str, accepted: &str| {
+            self.refuse_value(params, "displacement", what, accepted);
+            None
+        };
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| to_world.transform_vector3(axis));
+        let length = axes[0].length();
+        let even = axes
+            .iter()
+            .all(|axis| (axis.length() / length - 1.0).abs() < EVEN);
+        let square = (0..3).all(|i| axes[i].dot(axes[(i + 1) % 3]).abs() < EVEN * length * length);
+        if !(even && square) || mirrors(placement) || wanted.shape.reverse_orientation {
+            let what = "`displacement` of a mesh that is stretched, mirrored or turned inside out";
+            return refuse(what, "a CTM of rotations, translations and one scale");
+        }
+        if placement.is_animated() {
+            return refuse(
+                "`displacement` of a mesh that moves",
+                "a mesh that stands still",
+            );
+        }
+        if let Value::Object(texture) = &height.value
+            && looks_at_place(texture)
+            && to_world != DMat4::IDENTITY
+        {
+            let what =
+                "`displacement` by a texture in space, of a mesh elsewhere than in its own space";
+            return refuse(what, "a texture of (u, v), or no CTM");
+        }
+        let draft = Draft::of(params, Class::Shape, "displacement");
+        let draft = draft.given("height", height);
+        Some(match (length - 1.0).abs() < EVEN {
+            true => draft,
+            false => draft.plain("scale", Value::Float(length)),
         })
     }
 

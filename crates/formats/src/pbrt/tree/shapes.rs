@@ -92,7 +92,7 @@ impl<'a> Mapper<'a> {
         params.finish();
         let form = form?;
         let emitter = match light {
-            Some(light) => Some(self.area_light(light, form.area, alpha.is_some())?),
+            Some(light) => Some(self.area_light(light, form.area, alpha.as_ref())?),
             None => None,
         };
         if broken_alpha {

@@ -28,6 +28,9 @@ pub(crate) enum Role {
 /// Where pbrt's names of illuminants differ from Etalon's.
 const ILLUMINANT: &str = "stdillum-";
 
+/// Daylight of about 6000 K, the white of ACES, by pbrt's name and Etalon's.
+const ACES_WHITE: (&str, &str) = ("illum-acesD60", "D60");
+
 /// What may be written for spectra that are not light.
 const ACCEPTED: &str = "an rgb colour, pairs of a wavelength and a value, or a file of them";
 
@@ -58,7 +61,7 @@ impl<'a> Mapper<'a> {
             }
             (SpectrumValue::Samples(samples), _) => self.scaled(params, name, samples, role),
             (SpectrumValue::Named(spectrum), Role::Emission(factor))
-                if spectrum.starts_with(ILLUMINANT) =>
+                if spectrum.starts_with(ILLUMINANT) || spectrum == ACES_WHITE.0 =>
             {
                 self.illuminant(params, name, spectrum, factor)
             }
@@ -111,11 +114,7 @@ impl<'a> Mapper<'a> {
         let SpectrumValue::Rgb(written, space) = value else {
             return None;
         };
-        let Some(rgb) = to_rec709(written, space) else {
-            let accepted = "the colour spaces srgb, dci-p3 and rec2020";
-            self.refuse_value(params, name, "colour space `aces2065-1`", accepted);
-            return None;
-        };
+        let rgb = to_rec709(written, space, role);
         let most = match role {
             Role::Reflectance => 1.0,
             _ => f64::INFINITY,
@@ -171,10 +170,13 @@ impl<'a> Mapper<'a> {
         spectrum: &str,
         factor: f64,
     ) -> Option<Value> {
-        let own = spectrum.trim_start_matches(ILLUMINANT);
+        let own = match spectrum == ACES_WHITE.0 {
+            true => ACES_WHITE.1,
+            false => spectrum.trim_start_matches(ILLUMINANT),
+        };
         if named_illuminants::named(own).is_none() {
             let what = format!("illuminant `{spectrum}`");
-            let accepted = "stdillum-A, stdillum-D50, stdillum-D65, stdillum-F1 to stdillum-F12";
+            let accepted = "stdillum-A, stdillum-D50, stdillum-D65, stdillum-F1 to stdillum-F12, illum-acesD60";
             self.refuse_value(params, name, &what, accepted);
             return None;
         }

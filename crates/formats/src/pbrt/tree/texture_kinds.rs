@@ -6,23 +6,26 @@
 //! | scale: tex · scale | `scale`, or `multiply` of two |
 //! | mix: (1 − amount) tex1 + amount tex2 | `mix` |
 //! | bilerp over the unit square | `mix` of `mix`es by formulas of s and t |
-//! | imagemap | `bitmap` |
-//! | fbm, wrinkled, windy | `expression` (`noise_textures`) |
-//! | checkerboard: tex1 where ⌊s⌋ + ⌊t⌋ is even | `checkerboard`, whose squares have the side ½ |
+//! | imagemap | `bitmap` (`image_textures`) |
+//! | fbm, wrinkled, windy, marble, dots | formulas and patterns (`noise_textures`) |
+//! | checkerboard: tex1 where ⌊s⌋ + ⌊t⌋ is even | `checkerboard`, whose squares have the side ½; in space `cubes` |
 //!
 //! Etalon's `checkerboard` exchanges its colours where it is a number (its own documentation says why), so they are given the other way
-//! round there. pbrt filters the pattern over the pixel; the mean over its samples is the same. `marble` and `dots` have pbrt's own patterns.
+//! round there. pbrt filters the pattern over the pixel; the mean over its samples is the same.
 
 use super::super::parameters::Parameters;
+use super::super::placement::Placement;
 use super::super::scene::{TextureId, TextureKind};
 use super::Mapper;
 use super::node::{Draft, Given, given, word};
+use super::placement::placed;
 use super::spectrum::Role;
 use super::textures::{Rows, times};
 use etalon_params::{Class, Span, Value};
 
 /// What may stand in place of a texture that has no equal.
-const ACCEPTED: &str = "constant, scale, mix, bilerp, imagemap, checkerboard, fbm, wrinkled, windy";
+const ACCEPTED: &str =
+    "constant, scale, mix, bilerp, imagemap, checkerboard, dots, marble, fbm, wrinkled, windy";
 
 impl<'a> Mapper<'a> {
     /// The value of a texture; `None` after a mistake.
@@ -31,16 +34,27 @@ impl<'a> Mapper<'a> {
         let texture = &scene.textures[id];
         let params = self.read(&texture.entity);
         let kind = texture.kind;
+        let placement = &texture.placement;
         let found = match params.entity.kind {
             "constant" => self.part(&params, "value", 1.0, kind),
             "scale" => self.product(&params, kind),
             "mix" => self.mix(&params, kind),
-            "bilerp" => self.bilerp(&params, kind),
-            "imagemap" => self.image(&params, kind),
-            "checkerboard" => self.checkerboard(&params, kind),
+            "bilerp" => self.bilerp(&params, kind, placement),
+            "imagemap" => self.image(&params, kind, placement),
+            "checkerboard" => self.checkerboard(&params, kind, placement),
+            "dots" => self.dotted(&params, kind, placement),
             "fbm" | "wrinkled" | "windy" => {
-                let to_world = self.still(&texture.placement, "textures", params.entity.span);
+                let to_world = self.still(placement, "textures", params.entity.span);
                 self.noise_texture(&params, to_world)
+            }
+            "marble" => {
+                let to_world = self.still(placement, "textures", params.entity.span);
+                Some(self.marble(&params, to_world))
+            }
+            "ptex" => {
+                let help = "an image that is painted by (u, v), as an `imagemap`";
+                self.refuse(&params, "texture", help);
+                return None;
             }
             _ => {
                 self.refuse(&params, "texture", ACCEPTED);
@@ -84,118 +98,109 @@ impl<'a> Mapper<'a> {
         Some(mixed(params.entity.span, a?, b?, amount))
     }
 
-    fn bilerp(&mut self, params: &Parameters<'a>, kind: TextureKind) -> Option<Given> {
+    fn bilerp(
+        &mut self,
+        params: &Parameters<'a>,
+        kind: TextureKind,
+        placement: &Placement,
+    ) -> Option<Given> {
         let corners = [("v00", 0.0), ("v01", 1.0), ("v10", 0.0), ("v11", 1.0)];
         let [v00, v01, v10, v11] = corners.map(|(name, x)| self.part(params, name, x, kind));
-        let to_uv = self.to_uv(params, Rows::FromBottom, 1.0)?;
-        let (v00, v01, v10, v11) = (v00?, v01?, v10?, v11?);
+        let coordinates = self.coordinates(params, placement)?;
+        let corners = [v00?, v01?, v10?, v11?];
         let span = params.entity.span;
-        if to_uv.is_some() {
-            let what = "`bilerp` beyond the unit square";
-            self.refuse_value(params, "uscale", what, "no scale and no shift of (u, v)");
-            return None;
-        }
-        let along = |variable: &str| {
+        let by_formula = |text: &str| {
             let formula = Draft::new(Class::Texture, "expression", span);
-            formula.plain("value", word(variable)).value()
+            coordinates.projected(params, formula.plain("value", word(text)).value())
         };
-        let below = mixed(span, v00, v10, along("u"));
-        let above = mixed(span, v01, v11, along("u"));
-        Some(mixed(span, below, above, along("v")))
+        let [s, t] = [0, 1].map(|which| coordinates.formula(which));
+        if coordinates.within_unit {
+            let [v00, v01, v10, v11] = corners;
+            let below = mixed(span, v00, v10, by_formula(&s));
+            let above = mixed(span, v01, v11, by_formula(&s));
+            return Some(mixed(span, below, above, by_formula(&t)));
+        }
+        if let [
+            Value::Float(v00),
+            Value::Float(v01),
+            Value::Float(v10),
+            Value::Float(v11),
+        ] = corners.each_ref().map(|corner| &corner.value)
+        {
+            return Some(by_formula(&format!(
+                "(1 - {s})*((1 - {t})*({v00}) + {t}*({v01})) + {s}*((1 - {t})*({v10}) + {t}*({v11}))"
+            )));
+        }
+        let what = "`bilerp` of colours beyond the unit square";
+        let accepted = "the mappings uv, without scale and shift, and spherical";
+        self.refuse_value(params, "mapping", what, accepted);
+        None
     }
 
-    fn checkerboard(&mut self, params: &Parameters<'a>, kind: TextureKind) -> Option<Given> {
+    fn checkerboard(
+        &mut self,
+        params: &Parameters<'a>,
+        kind: TextureKind,
+        placement: &Placement,
+    ) -> Option<Given> {
         let parts =
             [("tex1", 1.0), ("tex2", 0.0)].map(|(name, x)| self.part(params, name, x, kind));
-        if params.integer("dimension", 2) != 2 {
-            let what = "`checkerboard` in space";
-            self.refuse_value(params, "dimension", what, "2");
-            return None;
-        }
-        let to_uv = self.to_uv(params, Rows::FromBottom, 0.5)?;
         let [even, odd] = parts;
-        let (even, odd) = (even?, odd?);
-        let [first, second] = match kind {
-            TextureKind::Spectrum => [even, odd],
-            TextureKind::Float => [odd, even],
-        };
-        let board = Draft::of(params, Class::Texture, "checkerboard")
-            .given("color0", first)
-            .given("color1", second);
-        Some(board.maybe("to_uv", to_uv).value())
-    }
-
-    fn image(&mut self, params: &Parameters<'a>, kind: TextureKind) -> Option<Given> {
-        let scale = params.float("scale", 1.0);
-        let invert = params.boolean("invert", false);
-        params.ignore(&["maxanisotropy"]);
-        let bitmap = self.bitmap(params, kind)?;
-        if !invert {
-            return Some(times(bitmap, scale));
-        }
-        if kind == TextureKind::Spectrum {
-            self.refuse_value(params, "invert", "inverted images of colours", "false");
-            return None;
-        }
-        let span = params.span("invert");
-        let formula = Draft::new(Class::Texture, "expression", span)
-            .plain("value", word("1 - scale*image"))
-            .from(params, "scale", "scale", Value::Float(scale))
-            .given("image", bitmap);
-        Some(formula.value())
-    }
-
-    /// An image, without factors.
-    fn bitmap(&self, params: &Parameters<'_>, kind: TextureKind) -> Option<Given> {
-        let filters = ["point", "bilinear", "trilinear", "ewa", "EWA"];
-        let filter = match params.choice("filter", "bilinear", &filters) {
-            "point" => "nearest",
-            // Rays have no footprint here: samples average over it.
-            _ => "bilinear",
-        };
-        let wraps = ["repeat", "black", "clamp", "octahedralsphere"];
-        let wrap = params.choice("wrap", "repeat", &wraps);
-        let encoding = params.string("encoding").unwrap_or("sRGB");
-        let to_uv = self.to_uv(params, Rows::FromTop, 1.0)?;
-        let Some(filename) = params.string("filename") else {
-            params.missing("string filename");
-            return None;
-        };
-        if !["repeat", "clamp"].contains(&wrap) {
-            let what = format!("`wrap` `{wrap}` of images");
-            self.refuse_value(params, "wrap", &what, "repeat, clamp");
-            return None;
-        }
-        let mut draft = Draft::of(params, Class::Texture, "bitmap")
-            .from(params, "filename", "filename", word(filename))
-            .maybe("to_uv", to_uv);
-        if filter != "bilinear" {
-            draft = draft.from(params, "filter", "filter_type", word(filter));
-        }
-        if wrap != "repeat" {
-            draft = draft.from(params, "wrap", "wrap_mode", word(wrap));
-        }
-        // The encoding is that of files with eight bits; others are linear in both.
-        draft = match (encoding, kind) {
-            ("sRGB", _) => draft,
-            ("linear", TextureKind::Float) => {
-                draft.from(params, "encoding", "raw", Value::Boolean(true))
+        let span = params.entity.span;
+        match params.integer("dimension", 2) {
+            2 => {}
+            3 => {
+                let to_world = self.still(placement, "textures", span);
+                let cubes = Draft::of(params, Class::Texture, "cubes")
+                    .given("color0", even?)
+                    .given("color1", odd?);
+                let to_world = given(Value::Transform(to_world), span);
+                return Some(placed(cubes, to_world).value());
             }
-            ("linear", TextureKind::Spectrum) => {
-                draft.from(params, "encoding", "gamma", Value::Float(1.0))
-            }
-            (other, _) => {
-                let what = format!("`encoding` `{other}` of images");
-                self.refuse_value(params, "encoding", &what, "sRGB, linear");
+            other => {
+                params.refuse("dimension", other, "2, 3");
                 return None;
             }
+        }
+        let coordinates = self.coordinates(params, placement)?;
+        let (even, odd) = (even?, odd?);
+        let board = |first, second| {
+            Draft::of(params, Class::Texture, "checkerboard")
+                .given("color0", first)
+                .given("color1", second)
+                .maybe("to_uv", coordinates.to_uv(params, Rows::FromBottom, 0.5))
+                .value()
         };
-        Some(draft.value())
+        if coordinates.is_projected() {
+            // What is within the squares has coordinates of its own.
+            let [zero, one] = [0.0, 1.0].map(|x| given(Value::Float(x), span));
+            let weight = coordinates.projected(params, board(one, zero));
+            return Some(mixed(span, even, odd, weight));
+        }
+        Some(match kind {
+            TextureKind::Spectrum => board(even, odd),
+            TextureKind::Float => board(odd, even),
+        })
+    }
+
+    /// pbrt's program shows `inside` between the dots and `outside` in them (`Create` hands them over in the other order than the
+    /// constructor takes them), and so do the pictures that people know.
+    fn dotted(
+        &mut self,
+        params: &Parameters<'a>,
+        kind: TextureKind,
+        placement: &Placement,
+    ) -> Option<Given> {
+        let [between, within] =
+            [("inside", 1.0), ("outside", 0.0)].map(|(name, x)| self.part(params, name, x, kind));
+        let coordinates = self.coordinates(params, placement)?;
+        let dots = self.dots(params, &coordinates)?;
+        Some(mixed(params.entity.span, between?, within?, dots))
     }
 }
 
 /// (1 − weight) a + weight b.
-fn mixed(span: Span, a: Given, b: Given, weight: Given) -> Given {
+pub(crate) fn mixed(span: Span, a: Given, b: Given, weight: Given) -> Given {
     let same = matches!((&a.value, &b.value), (Value::Float(x), Value::Float(y)) if x == y);
     if same {
         return given(a.value, span);

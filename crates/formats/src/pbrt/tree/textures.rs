@@ -2,9 +2,9 @@
 //!
 //! A texture becomes a value of the tree: a number, a colour, or an object that all its users share. `texture_kinds` maps each type.
 //!
-//! pbrt looks a 2-D texture up at (s, t) = (uscale u + udelta, vscale v + vdelta), which is Mitsuba's `to_uv`. Of images, pbrt counts t from
-//! the bottom row and Mitsuba v from the top one, so for them v becomes 1 − t. Texture coordinates of meshes stand as they are in
-//! both (Mitsuba turns only those of `obj` files over).
+//! Where pbrt looks a 2-D texture up (`texture_mapping`) is Mitsuba's `to_uv`. Of images, pbrt counts t from the bottom row and Mitsuba v from
+//! the top one, so for them v becomes 1 − t. Texture coordinates of meshes stand as they are in both (Mitsuba turns only those of `obj`
+//! files over).
 
 use super::super::parameters::Parameters;
 use super::super::scene::TextureId;
@@ -13,7 +13,7 @@ use super::Mapper;
 use super::node::{Given, given};
 use super::spectrum::Role;
 pub(crate) use crate::draft::times;
-use etalon_params::{Class, DMat4, Node, Span, Value};
+use etalon_params::{DMat4, Node, Span, Value};
 use glam::DVec4;
 use std::collections::HashSet;
 
@@ -103,51 +103,33 @@ impl<'a> Mapper<'a> {
         };
         found.map(|texture| given(texture.value, span))
     }
-
-    /// The `to_uv` of a 2-D texture; `squares` multiplies the coordinates of the pattern. `None` after a mistake.
-    pub(crate) fn to_uv(
-        &self,
-        params: &Parameters<'_>,
-        rows: Rows,
-        squares: f64,
-    ) -> Option<Option<Given>> {
-        let mapping = params.string("mapping").unwrap_or("uv");
-        let numbers = [
-            ("uscale", 1.0),
-            ("vscale", 1.0),
-            ("udelta", 0.0),
-            ("vdelta", 0.0),
-        ];
-        let [us, vs, ud, vd] = numbers.map(|(name, default)| params.float(name, default));
-        if mapping != "uv" {
-            params.ignore(&["v1", "v2"]);
-            let what = format!("texture mapping `{mapping}`");
-            self.refuse_value(params, "mapping", &what, "uv");
-            return None;
-        }
-        let own = DMat4::from_cols(
-            DVec4::new(us, 0.0, 0.0, 0.0),
-            DVec4::new(0.0, vs, 0.0, 0.0),
-            DVec4::Z,
-            DVec4::new(ud, vd, 0.0, 1.0),
-        );
-        let turned = match rows {
-            Rows::FromBottom => DMat4::IDENTITY,
-            Rows::FromTop => Rows::turned(),
-        };
-        let scale = DMat4::from_scale((squares, squares, 1.0).into());
-        let whole = turned * scale * own;
-        let moved = whole != DMat4::IDENTITY;
-        Some(moved.then(|| given(Value::Transform(whole), params.entity.span)))
-    }
 }
 
-/// Whether something is looked up by texture coordinates within a node.
+/// Whether something is looked up by a surface's texture coordinates within a node.
 pub(crate) fn looks_at_uv(node: &Node) -> bool {
-    const BY_UV: [&str; 3] = ["bitmap", "checkerboard", "expression"];
-    any_within(node, |node| {
-        node.class == Class::Texture && BY_UV.contains(&node.plugin.value.as_str())
+    any_within(node, |node| match node.plugin.value.as_str() {
+        "bitmap" | "checkerboard" | "dots" => true,
+        _ => has_formula_of(node, &["u", "v"]),
     })
+}
+
+/// Whether something is looked up by the place in space within a node.
+pub(crate) fn looks_at_place(node: &Node) -> bool {
+    any_within(node, |node| match node.plugin.value.as_str() {
+        "projected" | "cubes" => true,
+        _ => has_formula_of(node, &["x", "y", "z"]),
+    })
+}
+
+/// Whether a node is an `expression` of some variables.
+fn has_formula_of(node: &Node, variables: &[&str]) -> bool {
+    let asks = |formula: &str| {
+        let mut words = formula.split(|c: char| !c.is_ascii_alphanumeric());
+        words.any(|word| variables.contains(&word))
+    };
+    let mut properties = node.properties.iter();
+    node.plugin.value == "expression"
+        && properties.any(|p| matches!(&p.value, Value::String(formula) if asks(formula)))
 }
 
 /// Whether a material within a node is rougher along one tangent than along the other.
@@ -157,7 +139,7 @@ pub(crate) fn has_tangents(node: &Node) -> bool {
     })
 }
 
-/// Whether something holds for a node, or for one in it. Shared nodes are looked at once: there may be exponentially many ways to them.
+/// Whether something holds for a node, or for one in it that has the surface's own coordinates. Shared nodes are looked at once: there may be exponentially many ways to them.
 fn any_within(node: &Node, holds: impl Fn(&Node) -> bool) -> bool {
     let mut seen = HashSet::new();
     let mut open = vec![node];
@@ -167,6 +149,9 @@ fn any_within(node: &Node, holds: impl Fn(&Node) -> bool) -> bool {
         }
         if holds(node) {
             return true;
+        }
+        if node.plugin.value == "projected" {
+            continue;
         }
         open.extend(
             node.properties

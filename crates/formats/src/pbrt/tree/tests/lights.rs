@@ -1,6 +1,9 @@
 //! Lights.
 
+use super::evaluated::Evaluated;
 use super::*;
+use etalon_transport::SpectrumKind;
+use glam::{Vec3, Vec4};
 
 #[track_caller]
 fn assert_light(pbrt: &str, xml: &str) {
@@ -75,6 +78,26 @@ fn other_colour_spaces() {
         sound("WorldBegin ColorSpace \"rec2020\" LightSource \"infinite\" \"rgb L\" [ 2 2 2 ]");
     let light = children(&document.root).pop().expect("a light");
     assert!(shown(&light).contains("radiance: rgb 2.000000e0 2.000000e0 2.000000e0"));
+    // Its white has a name.
+    let document = sound("WorldBegin LightSource \"infinite\" \"spectrum L\" \"illum-acesD60\"");
+    let radiance = Evaluated::of(&document, "radiance", SpectrumKind::Emission);
+    let [x, y, z] = etalon_spectrum::cie::xyz(|nm| {
+        radiance
+            .spectrum(Vec3::ZERO, Vec4::splat(nm as f32))
+            .x
+            .into()
+    });
+    let sum = x + y + z;
+    assert!(
+        (x / sum - 0.3217).abs() < 1e-3 && (y / sum - 0.3377).abs() < 1e-3,
+        "{x} {y} {z}"
+    );
+    // A white reflectance of ACES is white; its light has the colour of its own white.
+    assert_same_world(
+        r#"ColorSpace "aces2065-1" Material "diffuse" "rgb reflectance" [ 1 1 1 ] Shape "sphere""#,
+        r#"<shape type="sphere"><float name="radius" value="1"/>
+            <bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="1 1 1"/></bsdf></bsdf></shape>"#,
+    );
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! Materials.
 
+use super::evaluated::Evaluated;
 use super::*;
+use etalon_transport::SpectrumKind;
+use glam::{Vec3, Vec4};
 
 /// The BSDF of a sphere of a material without mistakes; notes are asserted.
 #[track_caller]
@@ -78,6 +81,42 @@ fn metals() {
         "{mirror}"
     );
     assert!(mirror.contains("eta: spectrum 1.000000e0"), "{mirror}");
+}
+
+/// The indices at 589.3 nm that handbooks state: rutile's of the ordinary ray, 2.613, and magnesia's, 1.737.
+#[test]
+fn oxides_have_their_stated_indices() {
+    for (name, stated) in [("TiO2", 2.613), ("MgO", 1.737)] {
+        let document = sound(&format!(
+            "WorldBegin Material \"conductor\" \"spectrum eta\" \"metal-{name}-eta\" \"spectrum k\" \"metal-{name}-k\" Shape \"sphere\""
+        ));
+        let at = |part: &str| {
+            let texture = Evaluated::of(&document, part, SpectrumKind::Index);
+            texture.spectrum(Vec3::ZERO, Vec4::splat(589.3)).x
+        };
+        assert!((at("eta") - stated).abs() < 1e-3, "{name} {}", at("eta"));
+        assert_eq!(at("k"), 0.0);
+    }
+}
+
+/// k varies with the texture: of r = 0.2 it is 1, of r = 0.5 it is 2.
+#[test]
+fn metals_of_a_textured_reflectance() {
+    let document = sound(
+        r#"WorldBegin Texture "t" "spectrum" "checkerboard" "integer dimension" 3
+            "spectrum tex1" [ 360 0.2 830 0.2 ] "spectrum tex2" [ 360 0.5 830 0.5 ]
+            Material "conductor" "texture reflectance" "t" Shape "sphere""#,
+    );
+    let k = Evaluated::of(&document, "k", SpectrumKind::Index);
+    for (place, expected) in [(0.5, 1.0), (1.5, 2.0)] {
+        let found = k.spectrum(
+            Vec3::new(place, 0.5, 0.5),
+            Vec4::new(400.0, 500.0, 600.0, 700.0),
+        );
+        assert!((found - expected).abs().max_element() < 1e-4, "{found}");
+    }
+    let eta = Evaluated::of(&document, "eta", SpectrumKind::Index);
+    assert_eq!(eta.spectrum(Vec3::ZERO, Vec4::splat(500.0)), Vec4::ONE);
 }
 
 #[test]

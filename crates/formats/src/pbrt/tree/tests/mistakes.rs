@@ -20,8 +20,8 @@ fn what_has_no_equal_is_named_at_its_place() {
         "a.pbrt:2:77: error: the triangles around point 0 are no single fan, or are turned against each other: such a mesh cannot be subdivided",
     );
     assert_refused(
-        "Material \"conductor\" \"spectrum eta\" \"metal-TiO2-eta\" \"spectrum k\" \"metal-TiO2-k\" Shape \"sphere\"",
-        "a.pbrt:2:37: error: Etalon does not have pbrt's metal `TiO2` (accepted: metal-Ag, metal-Al, metal-Au, metal-Cu (each with -eta and -k), or pairs of a wavelength and a value)",
+        "Material \"conductor\" \"spectrum eta\" \"metal-CuZn-eta\" \"spectrum k\" \"metal-CuZn-k\" Shape \"sphere\"",
+        "a.pbrt:2:37: error: Etalon does not have pbrt's metal `CuZn` (accepted: metal-Ag, -Al, -Au, -Cu, -MgO, -TiO2 (each with -eta and -k), or pairs of a wavelength and a value)",
     );
 }
 

@@ -1,6 +1,7 @@
 //! Tests of the mapping: a text of pbrt against the XML that means the same.
 
 mod entities;
+mod evaluated;
 mod forms;
 mod grids;
 mod hostile;
@@ -10,6 +11,7 @@ mod mistakes;
 mod scenes;
 mod settings;
 mod shapes;
+mod texture_values;
 mod textures;
 mod written;
 

@@ -67,6 +67,21 @@ fn an_orthographic_window_is_part_of_the_pose() {
     );
 }
 
+/// pbrt sends its rays from the lens through the window at the distance that is sharp: ±1 of x is there at ±½.
+#[test]
+fn a_lens_of_an_orthographic_camera_sees_its_window_in_perspective() {
+    assert_camera(
+        r#"Camera "orthographic" "float lensradius" 0.1 "float focaldistance" 2
+           "float screenwindow" [ -1 3 0 2 ]"#,
+        r#"<float name="aperture_radius" value="0.1"/> <float name="focus_distance" value="2"/>
+           <float name="fov" value="90"/> <string name="fov_axis" value="x"/>
+           <float name="principal_point_offset_x" value="0.25"/>
+           <float name="principal_point_offset_y" value="-0.5"/>
+           <transform name="to_world"><scale x="-1"/></transform>"#,
+        "thinlens",
+    );
+}
+
 #[test]
 fn exposure_is_a_response() {
     let text = r#"Film "rgb" "float iso" 200 Camera "perspective" "float shutterclose" 0.25
@@ -124,6 +139,22 @@ fn filters() {
     );
     let sinc = r#""sinc" "float xradius" 3 "float yradius" 3"#;
     assert_eq!(filter(sinc), "rfilter lanczos { lobes: integer 3 }");
+    for (own, expected) in [
+        (
+            r#""sinc""#,
+            "rfilter lanczos { lobes: integer 3 radius: float 4.000000e0 }",
+        ),
+        (
+            r#""mitchell" "float xradius" 3 "float yradius" 3 "float B" 0.5 "float C" 0.25"#,
+            "rfilter mitchell { B: float 5.000000e-1 C: float 2.500000e-1 radius: float 3.000000e0 }",
+        ),
+        (
+            r#""box" "float xradius" 1 "float yradius" 1"#,
+            "rfilter box { radius: float 1.000000e0 }",
+        ),
+    ] {
+        assert_eq!(filter(own), expected);
+    }
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! Shapes, objects and media.
 
+use super::evaluated::Evaluated;
 use super::*;
+use etalon_transport::SpectrumKind;
+use glam::{Vec3, Vec4};
 
 /// The default material.
 const MATTE: &str = r#"<bsdf type="twosided"><bsdf type="diffuse"><float name="reflectance" value="0.5"/></bsdf></bsdf>"#;
@@ -222,4 +225,85 @@ fn files_of_meshes() {
     };
     let expected = shape("flat.ply", &format!("{FLAT}{FLIP}")) + &shape("round.ply", "");
     assert_alike(&outcome.document.expect("a document"), &xml(&expected));
+}
+
+/// What shines through holes: the radiance is there where the shape is.
+#[test]
+fn shapes_with_holes_may_shine() {
+    assert_same_world(
+        r#"AreaLightSource "diffuse" "rgb L" [ 2 4 6 ] Shape "sphere" "float alpha" 0.25"#,
+        &format!(
+            r#"<shape type="sphere"><float name="radius" value="1"/>
+                <bsdf type="mask"><float name="opacity" value="0.25"/>{MATTE}</bsdf>
+                <emitter type="area"><rgb name="radiance" value="0.5 1 1.5"/></emitter></shape>"#
+        ),
+    );
+    let document = sound(
+        r#"WorldBegin Texture "holes" "float" "checkerboard" "integer dimension" 3 "float tex1" 0.25
+            AreaLightSource "diffuse" "rgb L" [ 2 4 6 ] Shape "sphere" "texture alpha" "holes""#,
+    );
+    let lambda = Vec4::new(420.0, 500.0, 580.0, 660.0);
+    let whole = etalon_spectrum::Spectrum::emission([2.0, 4.0, 6.0]).expect("light");
+    let radiance = Evaluated::of(&document, "radiance", SpectrumKind::Emission);
+    for (place, share) in [(0.5, 0.25), (1.5, 0.0)] {
+        let found = radiance.spectrum(Vec3::new(place, 0.5, 0.5), lambda);
+        let expected = share * whole.eval(lambda);
+        let off = (found - expected).abs() / whole.eval(lambda);
+        assert!(off.max_element() < 1e-5, "{found} {expected}");
+    }
+    let unseen =
+        world(r#"AreaLightSource "diffuse" "rgb L" [ 2 4 6 ] Shape "sphere" "float alpha" 0"#);
+    assert!(
+        unseen.lines().contains("lights that are not seen"),
+        "{}",
+        unseen.lines()
+    );
+}
+
+/// Two triangles with texture coordinates, in a folder of their own.
+fn square(text: &str) -> ReadOutcome {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let vertices = "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n";
+    let ply = format!(
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float u\nproperty float v\n\
+         element face 2\nproperty list uchar int vertex_indices\nend_header\n{vertices}3 0 1 2\n3 0 2 3\n"
+    );
+    std::fs::write(folder.path().join("square.ply"), ply).expect("written");
+    let path = folder.path().join("a.pbrt");
+    std::fs::write(&path, format!("WorldBegin {text}")).expect("written");
+    pbrt::read(&path, &ReadOptions::default())
+}
+
+#[test]
+fn meshes_are_displaced_as_etalon_does() {
+    let texture = r#"Texture "h" "float" "bilerp" "float v10" 0.5 "float v11" 0.5 "float v01" 0"#;
+    let mesh = r#"Shape "plymesh" "string filename" "square.ply" "texture displacement" "h" "float edgelength" 0.25"#;
+    let outcome = square(&format!("{texture} Rotate 90 0 0 1 Scale 2 2 2 {mesh}"));
+    assert_eq!(outcome.lines(), "");
+    let shape = children(&outcome.document.expect("a document").root).pop();
+    let shape = shape.expect("a shape");
+    assert_eq!(shape.plugin.value, "displacement");
+    let text = shown(&shape);
+    for part in [
+        "edge_length: float 2.500000e-1",
+        "scale: float 2.000000e0",
+        "shape ply",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    for (before, expected) in [
+        ("Scale 1 2 1", "stretched, mirrored or turned inside out"),
+        ("Scale -1 1 1", "stretched, mirrored or turned inside out"),
+        (
+            "ReverseOrientation",
+            "stretched, mirrored or turned inside out",
+        ),
+    ] {
+        let said = square(&format!("{texture} {before} {mesh}")).lines();
+        assert!(said.contains(expected), "{before}: {said}");
+    }
+    let cubes = r#"Texture "h" "float" "checkerboard" "integer dimension" 3"#;
+    let said = square(&format!("{cubes} Translate 1 0 0 {mesh}")).lines();
+    assert!(said.contains("by a texture in space"), "{said}");
+    assert_eq!(square(&format!("{cubes} {mesh}")).lines(), "");
 }

@@ -121,3 +121,141 @@ fn bilinear_colours() {
         ))
     );
 }
+
+#[test]
+fn images_of_other_codes_and_places() {
+    assert_eq!(
+        reflectance(
+            r#"Translate 1 2 3 Texture "t" "spectrum" "imagemap" "string filename" "a.png" "string wrap" "black" "bool invert" true
+               "string encoding" "gamma 2.2" "string mapping" "planar" "vector3 v1" [ 2 0 0 ] "vector3 v2" [ 0 0 1 ] "float udelta" 0.5"#
+        ),
+        texture(
+            r#"<texture type="projected"><string name="mapping" value="planar"/><texture type="bitmap">
+                <string name="filename" value="a.png"/>
+                <transform name="to_uv"><translate x="0.5"/><scale y="-1"/><translate y="1"/></transform>
+                <string name="wrap_mode" value="zero"/><boolean name="invert" value="true"/><float name="exponent" value="2.2"/></texture>
+                <transform name="to_world"><matrix value="0.5 0 0 1  0 0 -0.5 2  0 1 0 3  0 0 0 1"/></transform></texture>"#
+        )
+    );
+    let linear = reflectance(
+        r#"Texture "t" "spectrum" "imagemap" "string filename" "a.png" "string encoding" "linear""#,
+    );
+    assert!(linear.contains("exponent: float 1"), "{linear}");
+}
+
+#[test]
+fn what_has_no_equal_is_refused_by_name() {
+    for (texture, expected) in [
+        (
+            r#""ptex" "string filename" "a.ptx""#,
+            "pbrt's texture `ptex`",
+        ),
+        (r#""directionmix""#, "pbrt's texture `directionmix`"),
+        (
+            r#""imagemap" "string filename" "a.png" "string wrap" "octahedralsphere""#,
+            "`wrap` `octahedralsphere`",
+        ),
+        (
+            r#""imagemap" "string filename" "a.png" "bool invert" true "float scale" 2"#,
+            "`scale` of inverted images",
+        ),
+        (
+            r#""imagemap" "string filename" "a.png" "string encoding" "gamma two""#,
+            "`encoding` of `imagemap` cannot be `gamma two`",
+        ),
+        (
+            r#""checkerboard" "string mapping" "planar" "vector3 v1" [ 0 2 0 ]"#,
+            "`v1` and `v2` of a planar mapping span no plane",
+        ),
+        (
+            r#""checkerboard" "integer dimension" 4"#,
+            "`dimension` of `checkerboard` cannot be 4",
+        ),
+        (
+            r#""dots" "float vscale" 0"#,
+            "`vscale` of `dots` cannot be 0",
+        ),
+        (
+            r#""bilerp" "float uscale" 2 "rgb v00" [ 1 0 0 ]"#,
+            "`bilerp` of colours beyond the unit square",
+        ),
+    ] {
+        let text = format!(
+            "Texture \"t\" \"spectrum\" {texture} Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\""
+        );
+        let said = world(&text).lines();
+        assert!(said.contains(expected), "{texture}: {said}");
+    }
+}
+
+/// A pattern in space needs no texture coordinates: curves, which have none, may have it.
+#[test]
+fn patterns_in_space_are_for_every_shape() {
+    let text = r#"WorldBegin Texture "t" "spectrum" "checkerboard" "string mapping" "spherical"
+        Texture "n" "float" "scale" "float tex" 0.5
+        Material "diffuse" "texture reflectance" "t" Shape "curve" "string type" "cylinder" "point3 P" [ 0 0 0  1 0 0  1 1 0  1 1 1 ]"#;
+    assert_eq!(sound(text).meshes.len(), 0);
+    // One by (u, v) is looked up along each segment; of hair it is not.
+    let by_uv = text.replace("\"string mapping\" \"spherical\"", "");
+    let outcome = pbrt::read_text("a.pbrt", &by_uv, &ReadOptions::default());
+    assert!(
+        outcome.lines().contains("note: v counts around this curve"),
+        "{}",
+        outcome.lines()
+    );
+    let shape = children(&outcome.document.expect("a document").root).pop();
+    assert!(shown(&shape.expect("a curve")).contains("coordinates: string along"));
+    let hair = by_uv.replace(
+        "\"diffuse\" \"texture reflectance\"",
+        "\"hair\" \"texture sigma_a\"",
+    );
+    let refused = pbrt::read_text("a.pbrt", &hair, &ReadOptions::default()).lines();
+    assert!(
+        refused.contains("texture coordinates of a `curve` of `hair`"),
+        "{refused}"
+    );
+}
+
+/// The number of an image that is not opaque is its opacity, that of a coloured one the mean of its channels.
+#[test]
+fn numbers_of_images() {
+    use etalon_images::{Image, exr};
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let write = |name: &str, alpha: f32, blue: f32| {
+        let image = [("R", 0.5), ("G", 0.5), ("B", blue), ("A", alpha)]
+            .into_iter()
+            .fold(Image::new(1, 1), |image, (channel, x)| {
+                image.with(channel, vec![x])
+            });
+        let part = exr::Part {
+            name: None,
+            image,
+            offset: [0, 0],
+        };
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        exr::encode(&mut bytes, &[part], [1, 1], "").expect("encoded");
+        std::fs::write(folder.path().join(name), bytes.into_inner()).expect("written");
+    };
+    write("clear.exr", 0.25, 0.5);
+    write("grey.exr", 1.0, 0.5);
+    write("blue.exr", 1.0, 0.75);
+    let channels = |name: &str| {
+        let text = format!(
+            "WorldBegin Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"{name}\" Shape \"disk\" \"texture alpha\" \"t\""
+        );
+        let path = folder.path().join("a.pbrt");
+        std::fs::write(&path, text).expect("written");
+        let outcome = pbrt::read(&path, &ReadOptions::default());
+        assert_eq!(outcome.lines(), "");
+        let shown = value(&outcome.document.expect("a document"), "opacity");
+        let channel = |line: &str| {
+            line.trim()
+                .strip_prefix("channel: string ")
+                .map(str::to_owned)
+        };
+        shown.lines().filter_map(channel).collect::<Vec<_>>()
+    };
+    assert_eq!(channels("clear.exr"), ["a"]);
+    assert_eq!(channels("grey.exr"), [""; 0]);
+    assert_eq!(channels("blue.exr"), ["b", "g", "r"]);
+}
