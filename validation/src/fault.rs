@@ -276,6 +276,10 @@ impl<W: World> World for Faulty<'_, W> {
         self.world.moment(raster, u)
     }
 
+    fn exposure(&self, raster: Vec2, time: f32) -> f32 {
+        self.world.exposure(raster, time)
+    }
+
     fn transmittance(
         &self,
         ray: &Ray,

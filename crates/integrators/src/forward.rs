@@ -193,6 +193,7 @@ impl Integrator for Forward {
     fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
         let mut incompatibilities = capabilities.incompatibilities(LightSearch::Choosing);
         incompatibilities.extend(capabilities.unsplattable());
+        incompatibilities.extend(capabilities.rows_in_turn());
         if !capabilities.aperture {
             let message = "`forward` waits for particles to hit the aperture of the camera, and \
                            this camera has none";

@@ -122,8 +122,7 @@ macro_rules! integrators {
                         .then(|| capabilities.diffusion_unseen(&seeing_diffusion()));
                     let endless = capabilities.endless_lit().filter(|_| I::FOLLOWS_LIGHT);
                     let one_way = capabilities.seen_one_way().filter(|_| I::FOLLOWS_LIGHT);
-                    let rows = capabilities.rows_in_turn().filter(|_| I::FOLLOWS_LIGHT);
-                    let unseen = unseen.into_iter().chain(diffusion).flatten().chain(endless).chain(one_way).chain(rows);
+                    let unseen = unseen.into_iter().chain(diffusion).flatten().chain(endless).chain(one_way);
                     unseen.chain(integrator.incompatibilities(capabilities)).collect()
                 }
                 match self {

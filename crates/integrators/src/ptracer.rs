@@ -16,7 +16,7 @@
 //! (Mitsuba's lights then still occlude the surfaces behind them.)
 
 use crate::steps::arrival::{self, Arriving};
-use crate::steps::camera_ray::camera_ray;
+use crate::steps::camera_ray::{draw_lens, ray_at};
 use crate::steps::dimensions as dim;
 use crate::steps::light_mis::LightMis;
 use crate::steps::light_path::{LightPath, LightVertex};
@@ -163,8 +163,10 @@ impl ParticleTracer {
     ) -> Option<(Vec2, Vec4)> {
         let (point, lens) = (&vertex.point, vertex.event.light);
         let connection = (world.camera()).connect(point.position, lens, point.time, site.margin)?;
+        // A row that is exposed for a part of the shutter interval sees as much of the particles as if it were all.
+        let exposure = world.exposure(connection.raster, point.time);
         let value = (vertex.bsdf).eval(vertex.wo, connection.direction, TransportMode::Importance);
-        if value == Vec4::ZERO {
+        if value * exposure == Vec4::ZERO {
             return None;
         }
         let ray = point.shadow_ray(connection.direction, Some(connection.target))?;
@@ -174,7 +176,7 @@ impl ParticleTracer {
         } else {
             world.transmittance(&ray, wavelengths, crossings)?
         };
-        let radiance = value * transmission.transmittance * connection.weight;
+        let radiance = value * transmission.transmittance * (connection.weight * exposure);
         Some((
             connection.raster,
             throughput.contribution(radiance, Vec4::ZERO),
@@ -203,6 +205,7 @@ impl Integrator for ParticleTracer {
         incompatibilities.extend(capabilities.one_way_camera());
         incompatibilities.extend(capabilities.unsplattable());
         incompatibilities.extend(capabilities.unconnected());
+        incompatibilities.extend(capabilities.instant_rows());
         incompatibilities
     }
 
@@ -224,20 +227,17 @@ impl Integrator for ParticleTracer {
         sampler: &mut S,
         sink: &mut K,
     ) {
-        let (wavelengths, ray, weight) = camera_ray(world, site, sampler);
+        // The particle flies at any moment, the camera ray at one of its row.
+        let (lens, u, time) = draw_lens(sampler);
+        let wavelengths = world.sensor().wavelengths(u);
+        let (ray, weight) = ray_at(world, site, lens, world.moment(site.raster, time));
         let sensor = world.sensor().weights(&wavelengths);
         let (lights, alpha) = {
             sampler.skip_to(dim::TIME + 1);
             self.visible_lights(world, ray, &wavelengths, sampler)
         };
         sink.radiance(sensor.rgb(lights * weight).to_array(), alpha);
-        self.trace(
-            world,
-            site,
-            (&wavelengths, &sensor, ray.time),
-            sampler,
-            sink,
-        );
+        self.trace(world, site, (&wavelengths, &sensor, time), sampler, sink);
     }
 
     one_by_one!();

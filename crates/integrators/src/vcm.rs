@@ -126,11 +126,13 @@ impl Integrator for ConnectionMerging {
     }
 
     fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
-        capabilities.incompatibilities(if self.connections {
+        let mut incompatibilities = capabilities.incompatibilities(if self.connections {
             LightSearch::Either
         } else {
             LightSearch::Choosing
-        })
+        });
+        incompatibilities.extend(capabilities.rows_in_turn());
+        incompatibilities
     }
 
     fn replicate_kind(&self) -> ReplicateKind {

@@ -6,7 +6,9 @@ use crate::scene::Scene;
 use etalon_bsdf::Material;
 use etalon_geometry::GeometryStatistics;
 use etalon_subsurface::{Homogeneous, MediumAtWavelengths};
-use etalon_transport::{Camera, Lights, Media, Medium, SceneCapabilities, Sensor, World};
+use etalon_transport::{
+    Camera, Lights, Media, Medium, RowExposure, SceneCapabilities, Sensor, World,
+};
 use glam::{UVec2, Vec3};
 
 /// How much there is in a scene.
@@ -82,7 +84,7 @@ impl Scene {
             endless: self.parts.space.lookup.geometry.is_endless()
                 && self.parts.lights.has_infinite(),
             narrow_filter: false,
-            rolling: self.parts.rolling.is_some(),
+            rows: (self.parts.rolling).map_or(RowExposure::Together, |rolling| rolling.rows()),
             one_way: self.parts.materials.iter().any(Material::is_one_way),
             classic: self.parts.materials.iter().any(Material::is_classic),
         }

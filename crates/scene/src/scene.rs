@@ -121,6 +121,12 @@ impl World for Scene {
     }
 
     #[inline]
+    fn exposure(&self, raster: Vec2, time: f32) -> f32 {
+        let rolling = self.parts.rolling.as_ref();
+        rolling.map_or(1.0, |rolling| rolling.exposure(raster.y, time))
+    }
+
+    #[inline]
     fn transmittance(
         &self,
         ray: &Ray,

@@ -58,7 +58,7 @@ pub use medium::{Coefficients, Collision, FreeFlight, Medium, MediumInterface, V
 pub use mesh::{Attribute, MeshData};
 pub use phase::{Phase, PhaseSample};
 pub use ray::{Departure, Ray};
-pub use rolling_shutter::RollingShutter;
+pub use rolling_shutter::{RollingShutter, RowExposure};
 pub use sample_pdf::SamplePdf;
 pub use scatterer::{PhaseOf, Scatterer, ScattererOf};
 pub use scene_capabilities::{

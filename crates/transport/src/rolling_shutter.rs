@@ -8,6 +8,18 @@
 
 use etalon_params::Params;
 
+/// When the rows of a picture are exposed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RowExposure {
+    /// All of them while the shutter is open.
+    #[default]
+    Together,
+    /// One after another, each for a while.
+    InTurn,
+    /// One after another, each at one moment.
+    Instants,
+}
+
 /// Rows that are exposed one after another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingShutter {
@@ -34,8 +46,33 @@ impl RollingShutter {
     /// t for the row that the film position `y` (pixels of the whole film) lies in.
     #[inline]
     pub fn moment(&self, y: f32, u: f32) -> f32 {
+        self.begin(y) + self.duration * u
+    }
+
+    /// The density of [`RollingShutter::moment`] at the moment t, if d is above 0.
+    #[inline]
+    pub fn exposure(&self, y: f32, time: f32) -> f32 {
+        let since = time - self.begin(y);
+        if (0.0..self.duration).contains(&since) {
+            1.0 / self.duration
+        } else {
+            0.0
+        }
+    }
+
+    /// When rows are exposed.
+    pub fn rows(&self) -> RowExposure {
+        match self.duration > 0.0 {
+            true => RowExposure::InTurn,
+            false => RowExposure::Instants,
+        }
+    }
+
+    /// When the row of `y` begins to be exposed.
+    #[inline]
+    fn begin(&self, y: f32) -> f32 {
         let row = y.floor().clamp(0.0, self.rows - 1.0);
-        (1.0 - self.duration) * ((row + 0.5) / self.rows) + self.duration * u
+        (1.0 - self.duration) * ((row + 0.5) / self.rows)
     }
 }
 
@@ -54,6 +91,12 @@ mod tests {
         for (y, [open, close]) in [0.9, 1.0, 2.5, 3.0].into_iter().zip(exposures) {
             assert!((rolling.moment(y, 0.0) - open).abs() < 1e-6, "{y}");
             assert!((rolling.moment(y, 1.0) - close).abs() < 1e-6, "{y}");
+        }
+        for (y, time) in [(0.5, 0.11), (0.5, 0.29), (3.9, 0.71), (3.9, 0.89)] {
+            assert_eq!(rolling.exposure(y, time), 5.0, "{y} {time}");
+        }
+        for (y, time) in [(0.5, 0.09), (0.5, 0.31), (3.9, 0.69), (3.9, 0.91)] {
+            assert_eq!(rolling.exposure(y, time), 0.0, "{y} {time}");
         }
         assert_eq!(rolling.moment(-3.0, 0.5), rolling.moment(0.0, 0.5));
         assert_eq!(rolling.moment(9.0, 0.5), rolling.moment(3.0, 0.5));

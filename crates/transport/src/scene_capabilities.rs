@@ -1,6 +1,8 @@
 //! Which scenes an estimator can render, decided before rendering: an estimator that cannot find any
 //! of a scene's light refuses it, so that no picture is black without an explanation.
 
+use crate::RowExposure;
+
 /// How many lights there are, by the ways in which a path can find them. Lights that emit nothing
 /// do not count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,8 +64,8 @@ pub struct SceneCapabilities {
     pub endless: bool,
     /// Whether a surface has a model that is valid for camera paths only (hair).
     pub one_way: bool,
-    /// Whether rows of the picture are exposed one after another, see [`crate::World::moment`].
-    pub rolling: bool,
+    /// When rows of the picture are exposed, see [`crate::World::moment`].
+    pub rows: RowExposure,
     /// Whether a surface has a classic Phong material, which says nothing of how it scatters light
     /// ([`crate::Surfaces::legacy_phong`]).
     pub classic: bool,
@@ -188,12 +190,20 @@ impl SceneCapabilities {
         self.one_way.then(|| impossible(message, help))
     }
 
-    /// The incompatibility, if any, of an estimator that follows light, to a rolling shutter.
+    /// The incompatibility, if any, of an estimator whose paths meet light at moments of its choice, to a rolling shutter.
     pub fn rows_in_turn(&self) -> Option<Incompatibility> {
         let message = "this integrator sends light into the scene at any moment, and the sensor has a rolling shutter, whose rows see \
                        moments of their own";
+        let help = "use `path`, or another integrator that starts at the camera, or `ptracer`";
+        (self.rows != RowExposure::Together).then(|| impossible(message, help))
+    }
+
+    /// The incompatibility, if any, of an estimator that makes pictures of nothing but light paths, to a rolling shutter.
+    pub fn instant_rows(&self) -> Option<Incompatibility> {
+        let message = "this integrator sends light into the scene at any moment, and the rows of the sensor's rolling shutter are \
+                       exposed at one moment each (`rolling_shutter_duration` 0)";
         let help = "use `path`, or another integrator that starts at the camera";
-        self.rolling.then(|| impossible(message, help))
+        (self.rows == RowExposure::Instants).then(|| impossible(message, help))
     }
 
     /// The incompatibility, if any, of an estimator that knows nothing of media, with the names of those that do.

@@ -98,6 +98,10 @@ pub trait World: Sync {
     /// what a [`crate::RollingShutter`] makes of it.
     fn moment(&self, raster: Vec2, u: f32) -> f32;
 
+    /// The density of [`World::moment`] at `raster` for the moment `time`, for particles that may land there at any: 1, or 0 and
+    /// more under a [`crate::RollingShutter`].
+    fn exposure(&self, raster: Vec2, time: f32) -> f32;
+
     /// The transmission along a segment, through at most `crossings` null surfaces (`mask`, `null`)
     /// and the media between; `None` if it is occluded.
     fn transmittance(

@@ -202,13 +202,15 @@ impl Integrator for Bidirectional {
     }
 
     fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
-        let Some(only) = self.only else {
-            return capabilities.incompatibilities(LightSearch::Either);
-        };
-        let mut incompatibilities = capabilities.incompatibilities(match only.light {
-            0 => LightSearch::Hitting,
-            _ => LightSearch::Choosing,
+        let mut incompatibilities = capabilities.incompatibilities(match self.only {
+            None => LightSearch::Either,
+            Some(only) if only.light == 0 => LightSearch::Hitting,
+            Some(_) => LightSearch::Choosing,
         });
+        incompatibilities.extend(capabilities.rows_in_turn());
+        let Some(only) = self.only else {
+            return incompatibilities;
+        };
         if only.camera == 1 {
             incompatibilities.extend(capabilities.one_way_camera());
             incompatibilities.extend(capabilities.unconnected());

@@ -100,6 +100,8 @@ impl<P: PathSampler> Integrator for Metropolis<P> {
     fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
         let mut incompatibilities = capabilities.incompatibilities(P::LIGHT_SEARCH);
         incompatibilities.extend(capabilities.unsplattable());
+        let rows = P::FOLLOWS_LIGHT.then(|| capabilities.rows_in_turn());
+        incompatibilities.extend(rows.flatten());
         incompatibilities
     }
 

@@ -251,7 +251,9 @@ impl Integrator for PhotonMapper {
     /// Photons come from lights that were chosen; one that can only be hit is seen itself, and nothing that it
     /// shines on.
     fn incompatibilities(&self, capabilities: &SceneCapabilities) -> Vec<Incompatibility> {
-        capabilities.incompatibilities(LightSearch::Choosing)
+        let mut incompatibilities = capabilities.incompatibilities(LightSearch::Choosing);
+        incompatibilities.extend(capabilities.rows_in_turn());
+        incompatibilities
     }
 
     fn replicate_kind(&self) -> ReplicateKind {

@@ -260,6 +260,10 @@ impl<'a, W: World> World for Recorder<'a, W> {
         self.world.moment(raster, u)
     }
 
+    fn exposure(&self, raster: Vec2, time: f32) -> f32 {
+        self.world.exposure(raster, time)
+    }
+
     fn transmittance(
         &self,
         ray: &Ray,

@@ -256,6 +256,9 @@ impl World for Sphere {
     fn moment(&self, _: Vec2, u: f32) -> f32 {
         u
     }
+    fn exposure(&self, _: Vec2, _: f32) -> f32 {
+        1.0
+    }
     fn transmittance(&self, _: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {
         Some(Transmission::FREE)
     }

@@ -6,7 +6,7 @@ use etalon_integrators::AnyIntegrator;
 use etalon_integrators::naive::Naive;
 use etalon_integrators::path::Path;
 use etalon_params::{Class, Diagnostics, FileId, Node, Span, Spanned};
-use etalon_transport::{Integrator, SceneCapabilities, TileSink};
+use etalon_transport::{Integrator, RowExposure, SceneCapabilities, TileSink};
 
 /// How many of 40 samples see a bright sky behind a camera that sees nothing before the moment 0.75, alone and together.
 fn seen<I: Integrator<State = ()>>(integrator: &I, row_moment: Option<f32>) -> [usize; 2] {
@@ -44,7 +44,7 @@ fn samples_are_of_the_moments_of_their_rows() {
 #[test]
 fn integrators_that_follow_light_are_refused() {
     let capabilities = SceneCapabilities {
-        rolling: true,
+        rows: RowExposure::InTurn,
         ..SceneCapabilities::default()
     };
     let refused = |name: &str| {
@@ -68,19 +68,11 @@ fn integrators_that_follow_light_are_refused() {
         all.iter()
             .any(|reason| reason.fatal && reason.message.contains("rolling shutter"))
     };
-    for name in [
-        "ptracer",
-        "bdpt",
-        "mmlt",
-        "forward",
-        "vcm",
-        "sppm",
-        "photonmap",
-    ] {
+    for name in ["bdpt", "mmlt", "forward", "vcm", "sppm", "photonmap"] {
         assert!(refused(name), "{name}");
     }
     for name in [
-        "path", "direct", "naive", "volpath", "guided", "whitted", "depth", "ao",
+        "path", "ptracer", "direct", "naive", "volpath", "guided", "whitted", "depth", "ao",
     ] {
         assert!(!refused(name), "{name}");
     }

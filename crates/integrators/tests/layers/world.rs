@@ -288,6 +288,9 @@ impl World for Stack {
     fn moment(&self, _: Vec2, u: f32) -> f32 {
         self.row_moment.unwrap_or(u)
     }
+    fn exposure(&self, _: Vec2, _: f32) -> f32 {
+        1.0
+    }
     fn transmittance(
         &self,
         ray: &Ray,

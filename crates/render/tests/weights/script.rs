@@ -274,6 +274,9 @@ impl<'s, W: World> World for Script<'s, W> {
     fn moment(&self, raster: Vec2, u: f32) -> f32 {
         self.world.moment(raster, u)
     }
+    fn exposure(&self, raster: Vec2, time: f32) -> f32 {
+        self.world.exposure(raster, time)
+    }
     fn transmittance(&self, ray: &Ray, _: &Wavelengths, _: u32) -> Option<Transmission> {
         let [_, to] = self.between(ray)?;
         let arrives = match self.course.position(to) {
