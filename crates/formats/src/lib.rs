@@ -4,6 +4,8 @@
 //! files that a scene refers to. Nothing here trusts a file: sizes are checked before memory is
 //! asked for, and a broken file is a message, never a panic.
 
+#[cfg(test)]
+mod changes;
 mod document;
 mod draft;
 mod file_assets;

@@ -81,7 +81,7 @@ impl SunSky {
         })
     }
 
-    /// Reads `timed_sunsky`: what `sunsky` has, with a [`Calendar`] in place of one moment.
+    /// Reads `timed_sunsky`: what `sunsky` has, with the days and hours of a calendar in place of one moment.
     pub fn timed_from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
         Self::with_course(params, build, |_, model, disk, sky_scale, build| {
             let calendar = Calendar::from_params(params, &build.shutter());

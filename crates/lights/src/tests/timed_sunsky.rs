@@ -49,6 +49,7 @@ fn radiances_are_mitsubas() {
         // The sensor's shutter opens with the light's and is open for twice as long.
         let [open, close, share] = [head[11], head[12], head[13]];
         world.shutter = Shutter {
+            rolling: None,
             open,
             close: open + 2.0 * (close - open),
         };
@@ -76,6 +77,7 @@ fn radiances_are_mitsubas() {
 fn samples_have_the_density_of_their_direction_at_their_moment() {
     let mut world = SmallWorld {
         shutter: Shutter {
+            rolling: None,
             open: 0.0,
             close: 1.0,
         },

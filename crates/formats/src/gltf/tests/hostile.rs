@@ -2,6 +2,7 @@
 
 use super::containers::glb;
 use super::*;
+use crate::changes::{Numbers, changed_files};
 
 /// A model with some of everything.
 fn whole(uri: &str) -> String {
@@ -32,19 +33,6 @@ fn whole(uri: &str) -> String {
   {"bufferView": 2, "count": 2, "type": "VEC3", "componentType": 5126}]"#
         )
     )
-}
-
-/// Numbers as of chance, always the same (Marsaglia 2003, xorshift).
-struct Numbers(u64);
-
-impl Numbers {
-    /// One from 0 to below `end`.
-    fn below(&mut self, end: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as usize % end.max(1)
-    }
 }
 
 /// What stands for what: numbers at their limits, other kinds of values.
@@ -138,9 +126,7 @@ fn survived(count: u32) -> u32 {
 /// `ETALON_CHANGED_FILES=100000` asks for more of them.
 #[test]
 fn changed_files_are_survived() {
-    let count = std::env::var("ETALON_CHANGED_FILES");
-    let count = count.ok().and_then(|count| count.parse().ok());
-    let count = count.unwrap_or(4000);
+    let count = changed_files(4000);
     let sound = survived(count);
     assert!(
         sound > count / 40 && sound < count,

@@ -178,7 +178,7 @@ pub(crate) fn per_vertex<T>(
 }
 
 /// The mesh with the texture coordinates that pbrt gives the corners of every triangle.
-fn with_default_uvs(data: &MeshData) -> MeshData {
+pub(crate) fn with_default_uvs(data: &MeshData) -> MeshData {
     let corners = || {
         data.triangles
             .iter()

@@ -8,14 +8,16 @@
 
 use super::super::parameters::Parameters;
 use super::Mapper;
-use super::meshes::shaded;
+use super::meshes::{shaded, with_default_uvs};
 use super::node::{Draft, Given, word};
 use super::placement::mirrors;
 use super::shapes::{Form, Wanted};
 use super::textures::looks_at_place;
+use crate::FileAssets;
 use crate::gzip;
 use crate::ply::{self, Carried};
 use etalon_params::{Class, DMat4, DVec3, Diagnostic, Value};
+use etalon_transport::{Assets, MeshFormat};
 
 /// By how much, of its size, what a CTM does along one axis may differ from another.
 const EVEN: f64 = 1e-5;
@@ -42,11 +44,13 @@ impl<'a> Mapper<'a> {
             return None;
         };
         let carried = self.carried_by(params, filename)?;
-        if (wanted.by_uv || height.is_some()) && !carried.uvs {
-            let what = "texture coordinates of a mesh that has none";
-            let accepted = "a file with them, or materials without images and patterns";
-            self.refuse_value(params, "filename", what, accepted);
+        if height.is_some() && !carried.uvs {
+            let what = "`displacement` of a mesh without texture coordinates";
+            self.refuse_value(params, "displacement", what, "a file with them");
             return None;
+        }
+        if wanted.by_uv && !carried.uvs {
+            return self.with_default_coordinates(params, wanted, filename);
         }
         let draft = self.placed_form(params, wanted, "ply", DMat4::IDENTITY)?;
         let draft = draft.from(params, "filename", "filename", word(filename));
@@ -60,6 +64,28 @@ impl<'a> Mapper<'a> {
         }
         Some(Form {
             drafts: vec![shaded(draft, wanted, !carried.normals)],
+            area: None,
+        })
+    }
+
+    /// The mesh of a file without texture coordinates, with those that pbrt gives the corners of its triangles.
+    fn with_default_coordinates(
+        &mut self,
+        params: &Parameters<'a>,
+        wanted: &Wanted<'_>,
+        filename: &str,
+    ) -> Option<Form> {
+        let files = FileAssets::new(self.scene.search.clone());
+        let data = match files.mesh(MeshFormat::Ply, filename) {
+            Ok(data) => data,
+            Err(error) => {
+                params.error_at("filename", error.message);
+                return None;
+            }
+        };
+        let draft = self.mesh_shape(params, wanted, with_default_uvs(&data))?;
+        Some(Form {
+            drafts: vec![draft],
             area: None,
         })
     }

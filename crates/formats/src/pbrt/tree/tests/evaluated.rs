@@ -6,7 +6,8 @@ use etalon_params::{Diagnostics, Property};
 use etalon_textures::{TextureReader, TextureTable};
 use etalon_transport::{
     AssetError, Assets, LanePoint, LaneReceiver, LightSampleContext, MeshData, MeshFormat,
-    SampledPoint, ShapeId, Shapes, SpectrumKind, SurfacePoint, TextureId, TexturePoint,
+    OpenFile, SampledPoint, ShapeId, Shapes, SpectrumKind, SurfacePoint, TextureId, TexturePoint,
+    in_memory,
 };
 use glam::{Vec2, Vec3, Vec4};
 use std::sync::Arc;
@@ -63,6 +64,9 @@ impl Assets for Files<'_> {
                 message: format!("there is no file `{path}`"),
                 help: None,
             })
+    }
+    fn open(&self, path: &str) -> Result<Box<dyn OpenFile>, AssetError> {
+        self.bytes(path).map(in_memory)
     }
     fn mesh(&self, _: MeshFormat, path: &str) -> Result<MeshData, AssetError> {
         self.bytes(path).map(|_| MeshData::default())

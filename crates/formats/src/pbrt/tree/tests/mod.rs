@@ -1,5 +1,6 @@
 //! Tests of the mapping: a text of pbrt against the XML that means the same.
 
+mod changed;
 mod entities;
 mod evaluated;
 mod forms;

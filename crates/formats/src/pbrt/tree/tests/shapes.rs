@@ -3,7 +3,7 @@
 use super::evaluated::Evaluated;
 use super::*;
 use etalon_transport::SpectrumKind;
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 
 /// The default material.
 const MATTE: &str = r#"<bsdf type="twosided"><bsdf type="diffuse"><float name="reflectance" value="0.5"/></bsdf></bsdf>"#;
@@ -306,4 +306,26 @@ fn meshes_are_displaced_as_etalon_does() {
     let said = square(&format!("{cubes} Translate 1 0 0 {mesh}")).lines();
     assert!(said.contains("by a texture in space"), "{said}");
     assert_eq!(square(&format!("{cubes} {mesh}")).lines(), "");
+}
+
+/// An image on a mesh from a file without coordinates lies on each triangle as pbrt puts it there; without an image the file is
+/// left to be read with the scene.
+#[test]
+fn files_without_coordinates_get_pbrts() {
+    let options = ReadOptions {
+        search: vec![concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/pbrt").into()],
+        ..ReadOptions::default()
+    };
+    let mesh = r#"Shape "plymesh" "string filename" "octahedron.ply""#;
+    let read = |text: &str| {
+        let outcome = pbrt::read_text("a.pbrt", &format!("WorldBegin {text}"), &options);
+        assert_eq!(outcome.lines(), "");
+        outcome.document.expect("a document").meshes
+    };
+    assert!(read(mesh).is_empty());
+    let image = r#"Texture "t" "spectrum" "imagemap" "string filename" "tiles.png"
+        Material "diffuse" "texture reflectance" "t""#;
+    let meshes = read(&format!("{image} {mesh}"));
+    assert_eq!(meshes[0].triangles.len(), 8);
+    assert_eq!(meshes[0].uvs, [Vec2::ZERO, Vec2::X, Vec2::ONE].repeat(8));
 }
