@@ -56,6 +56,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
             accelerator: options.accelerator,
             sensor: options.sensor.clone(),
             framing: options.framing,
+            time: options.time,
         };
         let compiled =
             etalon_scene::compile_with(&document.root, &assets, &diagnostics, &overruled);

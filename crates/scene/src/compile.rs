@@ -16,7 +16,7 @@ use etalon_geometry::AcceleratorKind;
 use etalon_lights::{BoundingSphere, LightDescription, LightSamplerKind, LightSet};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span};
 use etalon_subsurface::PhaseFunction;
-use etalon_transport::{Assets, Build, LightId, MediumId, ShapeId, Shapes, SpectrumKind};
+use etalon_transport::{Assets, Build, LightId, MediumId, ShapeId, Shapes, Shutter, SpectrumKind};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -60,6 +60,8 @@ pub struct CompileOptions {
     pub accelerator: AcceleratorKind,
     /// The rule of light selection, if not the scene's.
     pub light_chooser: Option<LightSamplerKind>,
+    /// See [`Shutter::frame`].
+    pub time: f64,
 }
 
 /// As [`compile`], with options.
@@ -76,7 +78,10 @@ pub fn compile_with(
     let sensor = placed_sensor
         .and_then(|placed| DescribedSensor::read(placed, &options.framing, &mut builder));
     if let Some(sensor) = &sensor {
-        builder.shutter = sensor.shutter;
+        builder.shutter = Shutter {
+            frame: options.time,
+            ..sensor.shutter
+        };
     }
     let integrator = params.child(Class::Integrator).cloned();
     let mut surfaces = surfaces::read(&params, &mut builder);

@@ -14,6 +14,9 @@ pub struct Shutter {
     pub close: f64,
     /// How rows are exposed, if not all at once.
     pub rolling: Option<RollingShutter>,
+    /// The scene time that `open` and `close` count from: 0, but for a frame of a film. What moves in the description counts from
+    /// it, too.
+    pub frame: f64,
 }
 
 impl Shutter {
@@ -27,6 +30,7 @@ impl Shutter {
                 open,
                 close,
                 rolling,
+                frame: 0.0,
             };
         }
         let what = "a finite number not below `shutter_open`";
@@ -39,6 +43,7 @@ impl Shutter {
             open,
             close: open,
             rolling,
+            frame: 0.0,
         }
     }
 

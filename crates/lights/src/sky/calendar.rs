@@ -52,7 +52,8 @@ impl Calendar {
             first,
             days: days.max(1) as f64,
             window: [from, to],
-            over: [shutter.open, shutter.close].map(|at| (at - open) / (close - open)),
+            over: [shutter.open, shutter.close]
+                .map(|at| (shutter.frame + at - open) / (close - open)),
         }
     }
 

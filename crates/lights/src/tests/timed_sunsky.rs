@@ -46,12 +46,13 @@ fn radiances_are_mitsubas() {
         let fields: Vec<&str> = line.split(" ; ").collect();
         let head = parsed(fields[0]);
         let mut world = SmallWorld::default();
-        // The sensor's shutter opens with the light's and is open for twice as long.
+        // The sensor's shutter opens with the light's, half a unit into a frame, and is open for twice as long.
         let [open, close, share] = [head[11], head[12], head[13]];
         world.shutter = Shutter {
-            rolling: None,
-            open,
-            close: open + 2.0 * (close - open),
+            open: 0.5,
+            close: 0.5 + 2.0 * (close - open),
+            frame: open - 0.5,
+            ..Shutter::default()
         };
         let sky = timed(&mut world, &head[..13]);
         let ours = sky.background(
@@ -77,9 +78,8 @@ fn radiances_are_mitsubas() {
 fn samples_have_the_density_of_their_direction_at_their_moment() {
     let mut world = SmallWorld {
         shutter: Shutter {
-            rolling: None,
-            open: 0.0,
             close: 1.0,
+            ..Shutter::default()
         },
         ..SmallWorld::default()
     };
