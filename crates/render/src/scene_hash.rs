@@ -1,9 +1,12 @@
 //! What tells one scene from another, as a hash.
 
 use crate::load_options::LoadOptions;
+use blake3::Hasher;
 use etalon_film::Framing;
-use etalon_formats::Document;
-use etalon_formats::FileAssets;
+use etalon_formats::{Document, FileAssets};
+use std::fs::File;
+use std::io;
+use std::path::Path;
 
 /// A hash over everything that decides the scene: its files, the files it refers to, and what
 /// the command line said.
@@ -12,18 +15,17 @@ pub(crate) fn scene_hash(
     assets: &FileAssets,
     options: &LoadOptions,
 ) -> String {
-    let mut hasher = blake3::Hasher::new();
-    let mut add = |bytes: &[u8]| {
-        hasher.update(&(bytes.len() as u64).to_le_bytes());
-        hasher.update(bytes);
-    };
+    let mut hasher = Hasher::new();
     for file in &document.files {
-        add(&file.bytes);
+        add(&mut hasher, &file.bytes);
     }
     for path in assets.used() {
         // A file that cannot be read now could not be read before either.
-        add(&std::fs::read(path).unwrap_or_default());
+        if add_file(&mut hasher, &path).is_err() {
+            add(&mut hasher, &[]);
+        }
     }
+    let mut add = |bytes: &[u8]| add(&mut hasher, bytes);
     for (key, value) in &options.defines {
         add(key.as_bytes());
         add(value.as_bytes());
@@ -44,4 +46,18 @@ pub(crate) fn scene_hash(
         add(options.framing.to_string().as_bytes());
     }
     hasher.finalize().to_hex()[..16].to_owned()
+}
+
+fn add(hasher: &mut Hasher, bytes: &[u8]) {
+    hasher.update(&(bytes.len() as u64).to_le_bytes());
+    hasher.update(bytes);
+}
+
+/// As [`add`], without holding all of the file.
+fn add_file(hasher: &mut Hasher, path: &Path) -> io::Result<()> {
+    let file = File::open(path)?;
+    let length = file.metadata()?.len();
+    hasher.update(&length.to_le_bytes());
+    hasher.update_reader(file)?;
+    Ok(())
 }
