@@ -24,13 +24,28 @@ pub fn write(
 ) -> Result<Losses, Error> {
     let colour = image.needed_colour(path)?;
     let (bytes, losses) = develop_colour(&colour, development.into());
-    let colour = if colour.alpha.is_some() {
-        ExtendedColorType::Rgba8
-    } else {
-        ExtendedColorType::Rgb8
-    };
-    write_bytes(path, &bytes, image.width(), image.height(), colour)?;
+    let [width, height] = [image.width(), image.height()];
+    write_bytes(path, &bytes, width, height, samples(&colour))?;
     Ok(losses)
+}
+
+/// The file that [`write()`] makes, in memory. `None` for an image without colour or pixels.
+#[must_use]
+pub fn in_memory(image: &Image, development: impl Into<Development>) -> Option<Vec<u8>> {
+    let colour = image.colour()?;
+    let (bytes, _) = develop_colour(&colour, development.into());
+    let [width, height] = [image.width(), image.height()];
+    let mut file = Vec::new();
+    encode(&mut file, &bytes, width, height, samples(&colour)).ok()?;
+    Some(file)
+}
+
+/// What a pixel of this colour has.
+fn samples(colour: &Colour<'_>) -> ExtendedColorType {
+    match colour.alpha {
+        Some(_) => ExtendedColorType::Rgba8,
+        None => ExtendedColorType::Rgb8,
+    }
 }
 
 /// The bytes [`write()`] puts into a file: RGB, or RGBA if the image has alpha. `None` for an

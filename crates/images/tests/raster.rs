@@ -288,6 +288,8 @@ fn png_for_people() {
         raster_file::read(&path).expect("reads").samples(),
         &Samples::U8(bytes)
     );
+    let written = std::fs::read(&path).expect("a file");
+    assert_eq!(png::in_memory(&image, 0.0), Some(written));
 
     // Alpha: colour is divided by it.
     let half = Image::new(1, 1).with("Y", vec![0.09]).with("A", vec![0.5]);

@@ -6,6 +6,7 @@
 
 pub mod adaptive;
 pub mod checkpointing;
+pub mod compared;
 pub mod decide;
 pub mod denoise;
 pub mod estimators;

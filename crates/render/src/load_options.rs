@@ -1,6 +1,7 @@
 //! Options for loading a scene, and overrides of its settings.
 
 use etalon_film::Framing;
+use etalon_formats::ReadOptions;
 use etalon_scene::{AcceleratorKind, LightSamplerKind, SensorChoice};
 use std::path::PathBuf;
 
@@ -25,4 +26,17 @@ pub struct LoadOptions {
     pub sensor: Option<SensorChoice>,
     /// What replaces the size of its film, and the part that is rendered.
     pub framing: Framing,
+}
+
+impl LoadOptions {
+    /// Those of them that are for reading the scene's file.
+    pub(crate) fn reading(&self) -> ReadOptions {
+        ReadOptions {
+            defines: self.defines.clone(),
+            integrator: self.integrator.clone(),
+            search: self.data.clone(),
+            environment: self.environment.clone(),
+            time: self.time,
+        }
+    }
 }

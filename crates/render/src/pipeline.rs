@@ -13,7 +13,7 @@ use etalon_film::{
     recorded_seconds,
 };
 pub use etalon_formats::is_scene;
-use etalon_formats::{Document, FileAssets, ReadOptions, ReadOutcome};
+use etalon_formats::{Document, FileAssets, ReadOutcome, mitsuba};
 use etalon_integrators::{AnyIntegrator, Progress, RenderPlan, RenderStatistics, ReplicateRange};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span, Value};
 use etalon_sampling::{ReplicateKind, SamplerKind};
@@ -28,16 +28,27 @@ use std::time::{Duration, Instant};
 /// Everything that is wrong with it, as far as one reading can find.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     let start = Instant::now();
-    let read = etalon_formats::read(
-        path,
-        &ReadOptions {
-            defines: options.defines.clone(),
-            integrator: options.integrator.clone(),
-            search: options.data.clone(),
-            environment: options.environment.clone(),
-            time: options.time,
-        },
-    );
+    let read = etalon_formats::read(path, &options.reading());
+    compile(read, path, options, start)
+}
+
+/// Reads and compiles a scene of Mitsuba's XML that is in no file: see [`mitsuba::read_text`].
+///
+/// # Errors
+/// As [`load`].
+pub fn load_text(text: &str, options: &LoadOptions) -> Result<Loaded, LoadError> {
+    let start = Instant::now();
+    let read = mitsuba::read_text(text, &options.reading());
+    compile(read, Path::new(mitsuba::TEXT), options, start)
+}
+
+/// Compiles what was read from `start` on.
+fn compile(
+    read: ReadOutcome,
+    path: &Path,
+    options: &LoadOptions,
+    start: Instant,
+) -> Result<Loaded, LoadError> {
     let sound = !read.has_errors();
     let ReadOutcome {
         sources,

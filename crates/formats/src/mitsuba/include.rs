@@ -130,6 +130,19 @@ pub(crate) fn read(
             return None;
         }
     };
+    parse(reader, path, bytes, search, place, level)
+}
+
+/// The same from the contents of a file.
+pub(crate) fn parse(
+    reader: &mut Reader<'_>,
+    path: &Path,
+    bytes: Vec<u8>,
+    search: &SearchPath,
+    place: Option<Span>,
+    level: usize,
+) -> Option<Root> {
+    let name = path.to_string_lossy();
     let decoded = decoded::decode(&bytes);
     let text: Arc<str> = decoded.text.into();
     let id = reader.sources.add(name, text.clone());

@@ -35,16 +35,38 @@ mod write;
 
 use crate::SearchPath;
 use crate::document::{Document, ReadOptions, ReadOutcome};
+use include::Root;
 use reader::Reader;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 pub use upgrade::underscored;
 pub use write::{WrittenScene, write};
 
+/// The name of a scene that is in no file, for messages.
+pub const TEXT: &str = "<string>";
+
 /// Reads the scene file at `path`.
 pub fn read(path: &Path, options: &ReadOptions) -> ReadOutcome {
+    outcome(path, options, |reader, search| {
+        include::read(reader, path, search, None, 0)
+    })
+}
+
+/// Reads a scene from a text, which has the name [`TEXT`]. Its files are looked for in the current folder.
+pub fn read_text(text: &str, options: &ReadOptions) -> ReadOutcome {
+    let path = Path::new(TEXT);
+    outcome(path, options, |reader, search| {
+        include::parse(reader, path, text.into(), search, None, 0)
+    })
+}
+
+fn outcome(
+    path: &Path,
+    options: &ReadOptions,
+    root: impl FnOnce(&mut Reader<'_>, &SearchPath) -> Option<Root>,
+) -> ReadOutcome {
     let mut reader = Reader::new(options);
-    let document = document(&mut reader, path);
+    let document = document(&mut reader, path, root);
     let mut diagnostics = reader.diagnostics;
     diagnostics.sort_by_key(|d| (d.span.is_none(), d.span.map(|s| (s.file, s.start))));
     ReadOutcome {
@@ -55,14 +77,18 @@ pub fn read(path: &Path, options: &ReadOptions) -> ReadOutcome {
     }
 }
 
-fn document(reader: &mut Reader<'_>, path: &Path) -> Option<Document> {
+fn document(
+    reader: &mut Reader<'_>,
+    path: &Path,
+    root: impl FnOnce(&mut Reader<'_>, &SearchPath) -> Option<Root>,
+) -> Option<Document> {
     let real = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     reader.chain.push((real, None));
     // As in Mitsuba, the current folder is searched after the scene's own.
     let search = SearchPath::new(
         std::iter::once(PathBuf::new()).chain(reader.options.search.iter().cloned()),
     );
-    let root = include::read(reader, path, &search, None, 0)?;
+    let root = root(reader, &search)?;
     if reader.is_full() {
         return None;
     }

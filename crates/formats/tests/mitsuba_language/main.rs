@@ -3,7 +3,7 @@
 mod mitsuba06;
 mod old_files;
 
-use etalon_formats::mitsuba::read;
+use etalon_formats::mitsuba::{read, read_text};
 use etalon_formats::{Document, ReadOptions, ReadOutcome};
 use etalon_params::{Class, DMat4, DVec3, Node, Property, SpectrumText, Value};
 use std::path::Path;
@@ -32,6 +32,17 @@ fn document(outcome: ReadOutcome) -> Document {
 fn scene(body: &str) -> Document {
     let text = format!("<scene version=\"3.0.0\">{body}</scene>");
     document(outcome(&[("main.xml", &text)], &ReadOptions::default()))
+}
+
+#[test]
+fn a_text_is_a_scene_of_no_file() {
+    let text = "<scene version='3.0.0'>\n  <shape type='$kind'/></scene>";
+    let mut options = ReadOptions::default();
+    options.defines = vec![("kind".to_owned(), "sphere".to_owned())];
+    let scene = document(read_text(text, &options));
+    assert_eq!(children(&scene.root)[0].plugin.value, "sphere");
+    let lines = read_text(text, &ReadOptions::default()).lines();
+    assert!(lines.starts_with("<string>:2:"), "{lines}");
 }
 
 fn property<'a>(node: &'a Node, name: &str) -> &'a Property {

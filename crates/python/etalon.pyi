@@ -1,0 +1,160 @@
+"""Etalon renders scenes with their statistical errors, and decides whether pictures agree."""
+
+import os
+from typing import Any, Callable, Dict, Iterable, List, Literal, Optional, Tuple, TypedDict, Union
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+Path = Union[str, os.PathLike[str]]
+
+class Diagnostic(TypedDict):
+    """A message about a scene; line and column count from 1, None where it has no place."""
+
+    severity: Literal["error", "note"]
+    message: str
+    help: Optional[str]
+    file: Optional[str]
+    line: Optional[int]
+    column: Optional[int]
+
+class SceneError(ValueError):
+    """A scene has mistakes; the message has a line `file:line:column: error: …` for each."""
+
+    diagnostics: List[Diagnostic]
+
+class Scene:
+    """A scene that is ready to be rendered, as made by `load_file` and `load_string`."""
+
+    @property
+    def integrator(self) -> str:
+        """The integrator's name, nested ones after a slash, such as 'path' or 'aov/path'."""
+    @property
+    def size(self) -> Tuple[int, int]:
+        """Width and height of what is rendered (pixels)."""
+    @property
+    def notes(self) -> List[str]:
+        """Remarks about the scene that do not prevent rendering, each `file:line:column: note: …`."""
+    @property
+    def parameters(self) -> Dict[str, str]:
+        """The scene's `$parameters` with the values that count, as texts, in the order of the file."""
+
+class Image:
+    """A picture with its standard errors and metadata."""
+
+    def numpy(self) -> NDArray[numpy.float32]:
+        """The colour: height × width × 3, linear Rec. 709 in the scene's units of radiance."""
+    def standard_error(self) -> NDArray[numpy.float32]:
+        """The standard error of `numpy()`: height × width × 3, in the same units.
+
+        Raises ValueError if there is a single replicate, or if the channels are neither R, G, B nor Y.
+        """
+    def channel(self, name: str) -> NDArray[numpy.float32]:
+        """One channel, by its name in the file: height × width."""
+    def tiles(self, side: int = 16, confidence: float = 0.99) -> NDArray[numpy.float64]:
+        """The means of tiles of 16 × 16 or 64 × 64 pixels with intervals of this confidence.
+
+        rows × columns × colours × 3: the mean over replicates, and the lower and upper end of its interval.
+        """
+    def save(self, path: Path) -> None:
+        """Writes an image with everything (.exr), or a picture to look at (.png)."""
+    @staticmethod
+    def from_replicates(pictures: Iterable[ArrayLike], *, spp: int = 1, program: str = "") -> Image:
+        """Pictures of one scene with different, independent seeds, by any renderer, as one image with its errors.
+
+        Each is an array of height × width × 3, linear Rec. 709, of `spp` samples per pixel.
+        """
+    def _repr_png_(self) -> Optional[bytes]: ...
+    @property
+    def channels(self) -> List[str]:
+        """The names of all channels, `standard_error.*` included."""
+    @property
+    def size(self) -> Tuple[int, int]:
+        """Width and height (pixels)."""
+    @property
+    def notes(self) -> List[str]:
+        """What the renderer has to say about the picture."""
+    @property
+    def mean_relative_standard_error(self) -> Optional[float]:
+        """√ of the mean of s² / (m² + 0.01) over pixels and colours, with mean m and standard error s."""
+    @property
+    def metadata(self) -> Dict[str, Any]:
+        """Version, scene, integrator, sampler, spp, replicates, seed, film, …; empty for pictures of other programs."""
+
+class Comparison:
+    """What came of comparing two images; true if they are equivalent."""
+
+    @property
+    def verdict(self) -> Literal["equivalent", "different", "inconclusive"]:
+        """The verdict; the last is never a pass."""
+    @property
+    def interval(self) -> Optional[Tuple[float, float]]:
+        """The interval of the relative bias of the image's mean, of the channel where it reaches farthest."""
+    @property
+    def p_value(self) -> Optional[float]:
+        """That of "both are estimates of the very same picture", over all questions (Bonferroni)."""
+    @property
+    def p_values(self) -> Dict[str, float]:
+        """For each channel that of "no bias at all" of the image's mean, not corrected."""
+    @property
+    def more_samples(self) -> Optional[float]:
+        """How many times as many samples, in both images, would decide what is open; None if nothing is."""
+    @property
+    def notes(self) -> List[str]:
+        """What one should know to read the verdict: why the images cannot be judged, a seed that both share, …"""
+    def report(self, path: Path) -> None:
+        """Writes a self-contained page (HTML)."""
+    def __bool__(self) -> bool: ...
+
+def load_file(path: Path, **defines: object) -> Scene:
+    """Reads a scene of Mitsuba's XML, pbrt-v4 or glTF, as the ending of its file tells.
+
+    `defines` are values of its `$parameters`. Raises SceneError with every mistake in it.
+    """
+
+def load_string(xml: str, **defines: object) -> Scene:
+    """Reads a scene from a text of Mitsuba's XML; relative files are looked for in the current folder."""
+
+def render(
+    scene: Scene,
+    spp: Optional[int] = None,
+    seed: Optional[int] = None,
+    *,
+    integrator: Optional[str] = None,
+    size: Optional[Tuple[int, int]] = None,
+    crop: Optional[Tuple[int, int, int, int]] = None,
+    time: Optional[float] = None,
+    threads: Optional[int] = None,
+    progress: Union[None, bool, Callable[[float], object]] = None,
+) -> Image:
+    """Renders a scene; what is None is as the scene has it.
+
+    spp: samples per pixel, all replicates together.
+    seed: the same one gives the same bits, whatever the threads, and those of the binary.
+    integrator: a type for the innermost integrator.
+    size: width and height of the whole film (pixels).
+    crop: x, y, width and height of the part to render, with the bits that it has in the whole.
+    time: the moment that the shutter counts from (units of scene time).
+    threads: as many as there are processors if None.
+    progress: called with the fraction done, or True for a line on standard error.
+
+    Ctrl-C stops the render and raises KeyboardInterrupt.
+    """
+
+def read(path: Path) -> Image:
+    """Reads an EXR file, of Etalon or another program."""
+
+def compare(
+    a: Union[Image, Path],
+    b: Union[Image, Path],
+    tolerance: float = 0.005,
+    *,
+    tile_tolerance: float = 0.03,
+    alpha: float = 0.001,
+) -> Comparison:
+    """Decides whether two images, or the files of two, are equivalent.
+
+    tolerance: the bias of an image's mean that would matter, relative to the channel's mean.
+    tile_tolerance: that of a tile, relative to its own mean (plus `tolerance` of the image's).
+    alpha: the probability of calling equal images different, over everything that is asked.
+    """

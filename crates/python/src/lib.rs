@@ -1,0 +1,27 @@
+//! The Python module `etalon`: a thin layer around `etalon_render`, which gives the same bits as the binary.
+//!
+//! A `Scene` is rendered by `render` to an `Image`, and images are judged by `compare`. The types that Python's tools
+//! see are in `etalon.pyi`.
+
+mod comparison;
+mod errors;
+mod image;
+mod planes;
+mod progress_report;
+mod render;
+mod scene;
+
+/// Etalon renders scenes with their statistical errors, and decides whether pictures agree.
+#[pyo3::pymodule]
+mod etalon {
+    #[pymodule_export]
+    use crate::comparison::{Comparison, compare};
+    #[pymodule_export]
+    use crate::errors::SceneError;
+    #[pymodule_export]
+    use crate::image::{Image, read};
+    #[pymodule_export]
+    use crate::render::render;
+    #[pymodule_export]
+    use crate::scene::{Scene, load_file, load_string};
+}
