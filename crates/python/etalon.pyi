@@ -1,14 +1,26 @@
 """Etalon renders scenes with their statistical errors, and decides whether pictures agree."""
 
 import os
-from typing import Any, Callable, Dict, Iterable, List, Literal, Optional, Tuple, TypedDict, Union
+from typing import Any, Callable, Dict, Iterable, List, Literal, Optional, Tuple, TypedDict, Union, final
 
-import numpy
+import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Path = Union[str, os.PathLike[str]]
+__all__ = [
+    "Comparison",
+    "Image",
+    "Scene",
+    "SceneError",
+    "compare",
+    "load_file",
+    "load_string",
+    "read",
+    "render",
+]
 
-class Diagnostic(TypedDict):
+_Path = Union[str, os.PathLike[str]]
+
+class _Diagnostic(TypedDict):
     """A message about a scene; line and column count from 1, None where it has no place."""
 
     severity: Literal["error", "note"]
@@ -21,8 +33,9 @@ class Diagnostic(TypedDict):
 class SceneError(ValueError):
     """A scene has mistakes; the message has a line `file:line:column: error: …` for each."""
 
-    diagnostics: List[Diagnostic]
+    diagnostics: List[_Diagnostic]
 
+@final
 class Scene:
     """A scene that is ready to be rendered, as made by `load_file` and `load_string`."""
 
@@ -39,24 +52,25 @@ class Scene:
     def parameters(self) -> Dict[str, str]:
         """The scene's `$parameters` with the values that count, as texts, in the order of the file."""
 
+@final
 class Image:
     """A picture with its standard errors and metadata."""
 
-    def numpy(self) -> NDArray[numpy.float32]:
+    def numpy(self) -> NDArray[np.float32]:
         """The colour: height × width × 3, linear Rec. 709 in the scene's units of radiance."""
-    def standard_error(self) -> NDArray[numpy.float32]:
+    def standard_error(self) -> NDArray[np.float32]:
         """The standard error of `numpy()`: height × width × 3, in the same units.
 
         Raises ValueError if there is a single replicate, or if the channels are neither R, G, B nor Y.
         """
-    def channel(self, name: str) -> NDArray[numpy.float32]:
+    def channel(self, name: str) -> NDArray[np.float32]:
         """One channel, by its name in the file: height × width."""
-    def tiles(self, side: int = 16, confidence: float = 0.99) -> NDArray[numpy.float64]:
+    def tiles(self, side: int = 16, confidence: float = 0.99) -> NDArray[np.float64]:
         """The means of tiles of 16 × 16 or 64 × 64 pixels with intervals of this confidence.
 
         rows × columns × colours × 3: the mean over replicates, and the lower and upper end of its interval.
         """
-    def save(self, path: Path) -> None:
+    def save(self, path: _Path) -> None:
         """Writes an image with everything (.exr), or a picture to look at (.png)."""
     @staticmethod
     def from_replicates(pictures: Iterable[ArrayLike], *, spp: int = 1, program: str = "") -> Image:
@@ -81,6 +95,7 @@ class Image:
     def metadata(self) -> Dict[str, Any]:
         """Version, scene, integrator, sampler, spp, replicates, seed, film, …; empty for pictures of other programs."""
 
+@final
 class Comparison:
     """What came of comparing two images; true if they are equivalent."""
 
@@ -102,11 +117,11 @@ class Comparison:
     @property
     def notes(self) -> List[str]:
         """What one should know to read the verdict: why the images cannot be judged, a seed that both share, …"""
-    def report(self, path: Path) -> None:
+    def report(self, path: _Path) -> None:
         """Writes a self-contained page (HTML)."""
     def __bool__(self) -> bool: ...
 
-def load_file(path: Path, **defines: object) -> Scene:
+def load_file(path: _Path, **defines: object) -> Scene:
     """Reads a scene of Mitsuba's XML, pbrt-v4 or glTF, as the ending of its file tells.
 
     `defines` are values of its `$parameters`. Raises SceneError with every mistake in it.
@@ -141,12 +156,12 @@ def render(
     Ctrl-C stops the render and raises KeyboardInterrupt.
     """
 
-def read(path: Path) -> Image:
+def read(path: _Path) -> Image:
     """Reads an EXR file, of Etalon or another program."""
 
 def compare(
-    a: Union[Image, Path],
-    b: Union[Image, Path],
+    a: Union[Image, _Path],
+    b: Union[Image, _Path],
     tolerance: float = 0.005,
     *,
     tile_tolerance: float = 0.03,
