@@ -5,7 +5,7 @@
 //! asked for, and a broken file is a message, never a panic.
 
 #[cfg(test)]
-mod changes;
+mod changed_files;
 mod document;
 mod draft;
 mod file_assets;

@@ -15,6 +15,7 @@ pub mod error;
 pub mod exr;
 mod foreign;
 pub mod format;
+pub mod halves;
 pub mod hdr;
 pub mod image;
 pub mod jpeg;

@@ -1,6 +1,6 @@
 //! Pictures with their samples as stored, for textures.
 
-use crate::{Format, Image, srgb};
+use crate::{Format, Image, halves, srgb};
 
 /// Samples, pixel after pixel, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +9,8 @@ pub enum Samples {
     U8(Vec<u8>),
     /// 16-bit integers; 65,535 is 1.
     U16(Vec<u16>),
+    /// 16-bit floats, by their bits.
+    F16(Vec<u16>),
     /// Floats.
     F32(Vec<f32>),
 }
@@ -117,7 +119,7 @@ impl Raster {
     /// Whether the samples are integers, whose colour is by convention encoded as sRGB.
     #[must_use]
     pub fn is_encoded(&self) -> bool {
-        !matches!(self.samples, Samples::F32(_))
+        matches!(self.samples, Samples::U8(_) | Samples::U16(_))
     }
 
     /// The samples as floats, integers divided by their greatest value; no transfer function.
@@ -126,6 +128,7 @@ impl Raster {
         match &self.samples {
             Samples::U8(bytes) => bytes.iter().map(|&x| f32::from(x) / 255.0).collect(),
             Samples::U16(words) => words.iter().map(|&x| f32::from(x) / 65535.0).collect(),
+            Samples::F16(halves) => halves::to_floats(halves),
             Samples::F32(floats) => floats.clone(),
         }
     }
@@ -152,6 +155,7 @@ impl Raster {
                     if colour(i) { srgb::decode(x) } else { x }
                 })
                 .collect(),
+            Samples::F16(halves) => halves::to_floats(halves),
             Samples::F32(floats) => floats.clone(),
         }
     }

@@ -3,7 +3,7 @@
 //! Formats are recognised by the files' content, never by their names.
 
 use crate::raster::{Raster, RasterHeader, Samples};
-use crate::{Error, Format, Frame, exr, foreign, lfs_pointer, pfm};
+use crate::{Error, Format, Frame, exr, foreign, halves, lfs_pointer, pfm};
 use std::io::{BufRead, Read, Seek, SeekFrom};
 use std::path::Path;
 
@@ -173,7 +173,10 @@ fn from_exr(bytes: &[u8], path: &Path) -> Result<Raster, Error> {
             true => (size, samples),
             false => placed(samples, size, planes.len(), frame, &mut notes),
         };
-        Raster::new(size, planes.len(), Samples::F32(samples), Format::Exr).noting(notes, None)
+        // Colours of other primaries have been converted, and need more bits.
+        let halves = is_half.then(|| halves::of_floats(&samples)).flatten();
+        let samples = halves.map_or_else(|| Samples::F32(samples), Samples::F16);
+        Raster::new(size, planes.len(), samples, Format::Exr).noting(notes, None)
     };
     if let (None, [only]) = (image.colour(), image.channels()) {
         return Ok(raster(&[&only.samples], Vec::new()));

@@ -2,12 +2,18 @@
 
 use ::exr::math::Vec2;
 use ::exr::prelude::*;
-use etalon_images::raster_file;
+use etalon_images::{Raster, Samples, raster_file};
 use std::io::Cursor;
 use std::path::Path;
 
 /// A picture of 2 × 1 grey pixels at (`x`, `y`) of a window of 3 × 2, decoded; its numbers, and what is said of it.
 fn decoded(samples: FlatSamples, x: i32, y: i32) -> (Vec<f32>, Vec<String>) {
+    let raster = raster(samples, x, y);
+    let notes = raster.notes(false).map(str::to_owned).collect();
+    (raster.to_floats(), notes)
+}
+
+fn raster(samples: FlatSamples, x: i32, y: i32) -> Raster {
     let mut attributes = LayerAttributes::named("grey");
     attributes.layer_position = Vec2(x, y);
     let channel = AnyChannel::new("Y", samples);
@@ -21,8 +27,7 @@ fn decoded(samples: FlatSamples, x: i32, y: i32) -> (Vec<f32>, Vec<String>) {
     writing.expect("writes");
     let raster = raster_file::decode(file.get_ref(), Path::new("part.exr")).expect("a picture");
     assert_eq!([raster.width(), raster.height()], [3, 2]);
-    let notes = raster.notes(false).map(str::to_owned).collect();
-    (raster.to_floats(), notes)
+    raster
 }
 
 #[test]
@@ -54,4 +59,17 @@ fn infinite_halves_are_held() {
     // Floats that are infinite were so from the start: they are refused by their users.
     let (found, notes) = decoded(FlatSamples::F32(vec![f32::INFINITY, 0.5]), 0, 0);
     assert!(found[0].is_infinite() && !notes.concat().contains("infinite"));
+}
+
+#[test]
+fn halves_stay_halves() {
+    let values = [0.25, 3.0].map(f16::from_f32);
+    let halves = raster(FlatSamples::F16(values.to_vec()), 0, 0);
+    let bits = values.map(f16::to_bits);
+    let expected = [bits[0], bits[1], 0, 0, 0, 0];
+    assert_eq!(halves.samples(), &Samples::F16(expected.to_vec()));
+    assert!(!halves.is_encoded());
+    assert_eq!(halves.to_linear(), [0.25, 3.0, 0.0, 0.0, 0.0, 0.0]);
+    let floats = raster(FlatSamples::F32(vec![0.25, 3.0]), 0, 0);
+    assert!(matches!(floats.samples(), Samples::F32(_)));
 }

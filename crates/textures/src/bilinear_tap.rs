@@ -58,21 +58,25 @@ pub struct BilinearTap {
     pub weights: [f32; 4],
 }
 
+/// The upper left one of the four texels around `uv`, and how far it is from there to the others.
+#[inline]
+fn place(uv: Vec2, size: UVec2) -> (Vec2, Vec2) {
+    let p = uv * size.as_vec2() - 0.5;
+    let corner = p.floor();
+    (corner, p - corner)
+}
+
 impl BilinearTap {
     /// The four texels around `uv` in an image of `size` texels.
     #[inline]
     pub fn bilinear(uv: Vec2, size: UVec2, wrap: Wrap) -> Self {
-        let p = uv * size.as_vec2() - 0.5;
-        let corner = p.floor();
-        let w = p - corner;
+        let (corner, w) = place(uv, size);
         Self::weighted(corner, [[1.0 - w.x, w.x], [1.0 - w.y, w.y]], size, wrap)
     }
 
     /// The same with the derivatives of the weights by u and by v in place of the weights.
     pub(crate) fn slopes(uv: Vec2, size: UVec2, wrap: Wrap) -> [Self; 2] {
-        let p = uv * size.as_vec2() - 0.5;
-        let corner = p.floor();
-        let w = p - corner;
+        let (corner, w) = place(uv, size);
         let (along, across) = (size.as_vec2(), [[1.0 - w.x, w.x], [1.0 - w.y, w.y]]);
         [
             Self::weighted(corner, [[-along.x, along.x], across[1]], size, wrap),

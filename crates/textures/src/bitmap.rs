@@ -10,7 +10,7 @@ use crate::decode::ImageChannel;
 use crate::picture::{FilePixels, Picture, Stored, ask};
 use crate::pixels::{Texels, Values};
 use crate::reader::Use;
-use crate::recoded::Recoding;
+use crate::recoding::Recoding;
 use crate::recovered::{self, luminance};
 use crate::texture::TextureModel;
 use crate::{Filter, Texture, TextureReader, TextureTable, UvTransform, Wrap};

@@ -3,7 +3,7 @@
 use crate::coded::Coded;
 use crate::picture::FilePixels;
 use crate::pixels::Values;
-use etalon_images::{Samples, raster_file, srgb};
+use etalon_images::{Samples, halves, raster_file, srgb};
 use etalon_transport::OpenFile;
 use glam::UVec2;
 use std::ops::Range;
@@ -60,23 +60,46 @@ impl FilePixels {
                 samples: of_channels(samples, channels, kept),
                 values: srgb::values_of_16_bits(encoded),
             }),
-            Samples::F32(samples) => {
-                if let Some(i) = samples.iter().position(|x| !x.is_finite()) {
-                    let pixel = (i / channels) as u32;
-                    let (x, y) = (pixel % size.x, pixel / size.x);
-                    return Err(format!(
-                        "the pixel in column {x} of row {y} of `{name}` is not finite (both counted from 0)"
-                    ));
-                }
-                let pixels = samples.chunks_exact(channels);
-                Self::Floats(match kept.len() {
-                    1 => Values::One(of_channels(samples, channels, kept)),
-                    _ => Values::Three(pixels.map(|p| [p[0], p[1], p[2]]).collect()),
-                })
+            Samples::F16(samples) if samples.iter().all(is_share) => Self::Halves(Coded {
+                channels: kept.len(),
+                samples: of_channels(samples, channels, kept),
+                values: halves::values(),
+            }),
+            Samples::F16(samples) => {
+                let floats = samples
+                    .iter()
+                    .map(|&bits| halves::values()[usize::from(bits)]);
+                Self::of_floats(floats.collect(), (size, channels, kept), name)?
             }
+            Samples::F32(samples) => Self::of_floats(samples, (size, channels, kept), name)?,
         };
         Ok((size, pixels, notes))
     }
+
+    /// The `kept` ones of floats of this many channels.
+    fn of_floats(
+        samples: Vec<f32>,
+        (size, channels, kept): (UVec2, usize, Range<usize>),
+        name: &str,
+    ) -> Result<Self, String> {
+        if let Some(i) = samples.iter().position(|x| !x.is_finite()) {
+            let pixel = (i / channels) as u32;
+            let (x, y) = (pixel % size.x, pixel / size.x);
+            return Err(format!(
+                "the pixel in column {x} of row {y} of `{name}` is not finite (both counted from 0)"
+            ));
+        }
+        let pixels = samples.chunks_exact(channels);
+        Ok(Self::Floats(match kept.len() {
+            1 => Values::One(of_channels(samples, channels, kept)),
+            _ => Values::Three(pixels.map(|p| [p[0], p[1], p[2]]).collect()),
+        }))
+    }
+}
+
+/// Whether a half is a number in [0, 1], which all textures may have.
+fn is_share(bits: &u16) -> bool {
+    (0.0..=1.0).contains(&halves::values()[usize::from(*bits)])
 }
 
 /// Some neighbouring channels of each pixel, in the memory of all of them.

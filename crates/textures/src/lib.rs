@@ -32,7 +32,7 @@ pub mod projected;
 pub mod ramp;
 pub mod reader;
 mod recalled;
-mod recoded;
+mod recoding;
 pub mod recovered;
 mod spectra;
 pub mod texture;

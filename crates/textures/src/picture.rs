@@ -17,6 +17,8 @@ pub enum FilePixels {
     Bytes(Coded<u8>),
     /// 16-bit integers.
     Words(Coded<u16>),
+    /// 16-bit floats from 0 to 1.
+    Halves(Coded<u16>),
 }
 
 /// Texels of an image, with statistics of all of it.
@@ -102,7 +104,7 @@ impl Picture {
                     },
                 )
             }
-            FilePixels::Words(words) => {
+            FilePixels::Words(words) | FilePixels::Halves(words) => {
                 let mean = mean_of(&words, size);
                 of_integers(
                     mean,

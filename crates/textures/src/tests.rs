@@ -22,7 +22,7 @@ mod mesh_attribute;
 mod procedural;
 mod projected;
 mod ranges;
-mod recoded;
+mod recoding;
 mod rules;
 
 const NOWHERE: Span = Span {

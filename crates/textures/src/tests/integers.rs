@@ -1,11 +1,12 @@
 //! Samples that stay integers are looked up with the bits of those that are decoded when the file is read.
 
 use super::LAMBDA;
+use crate::coded::Coded;
 use crate::decode::ImageChannel;
 use crate::picture::{FilePixels, Picture, Stored};
 use crate::pixels::{Image, Pixels, Texels, Values};
 use crate::{Bitmap, Filter, UvTransform, Wrap};
-use etalon_images::raster_file;
+use etalon_images::{halves, raster_file};
 use etalon_transport::SpectrumKind;
 use glam::{UVec2, Vec2};
 use std::path::Path;
@@ -151,6 +152,46 @@ fn pictures_of_too_many_colours_are_looked_up_in_their_samples() {
         };
         for i in (0..count).step_by(997) {
             assert_eq!(coefficients(&stored, i), coefficients(&floats, i), "{i}");
+        }
+    }
+}
+
+/// Halves are looked up as the floats that they are. Mutant rejected: halves taken for integers, or decoded as sRGB.
+#[test]
+fn halves_are_looked_up_as_floats_are() {
+    let size = UVec2::new(4, 3);
+    let bits: Vec<u16> = (0..36)
+        .map(|i| 0x2c00 + 110 * (i as u16 * 7 % 36))
+        .collect();
+    let values: Vec<f32> = bits
+        .iter()
+        .map(|&b| halves::values()[usize::from(b)])
+        .collect();
+    assert!(values.iter().all(|x| (0.05..=1.0).contains(x)));
+    for (channels, raw) in [(1, false), (3, false), (3, true)] {
+        let size = size * UVec2::new(1, 3 / channels as u32);
+        let coded = Coded {
+            samples: bits.clone(),
+            values: halves::values(),
+            channels,
+        };
+        let of = |pixels| Picture::new(size, pixels, raw, SpectrumKind::Reflectance);
+        let stored = of(FilePixels::Halves(coded));
+        let floats = of(FilePixels::Floats(match channels {
+            1 => Values::One(values.clone()),
+            _ => Values::Three(values.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect()),
+        }));
+        let [stored, floats] = [stored, floats].map(|image| Bitmap {
+            image: Arc::new(image),
+            filter: Filter::Bilinear,
+            wrap: Wrap::Repeat,
+            to_uv: UvTransform::IDENTITY,
+        });
+        assert_eq!(stored.image.mean, floats.image.mean);
+        for i in 0..50 {
+            let uv = Vec2::new(0.37 * i as f32, 0.21 * i as f32);
+            assert_eq!(stored.spectrum(uv, LAMBDA), floats.spectrum(uv, LAMBDA));
+            assert_eq!(stored.number(uv), floats.number(uv));
         }
     }
 }

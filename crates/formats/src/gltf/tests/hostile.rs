@@ -2,7 +2,7 @@
 
 use super::containers::glb;
 use super::*;
-use crate::changes::{Numbers, changed_files};
+use crate::changed_files::{Numbers, changed_files};
 
 /// A model with some of everything.
 fn whole(uri: &str) -> String {

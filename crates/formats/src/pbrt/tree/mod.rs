@@ -14,6 +14,7 @@ mod camera;
 mod cloud_medium;
 mod coated;
 mod color_space;
+mod coordinates;
 mod curves;
 mod dielectrics;
 mod film;
@@ -47,7 +48,6 @@ mod subsurface;
 #[cfg(test)]
 mod tests;
 mod texture_kinds;
-mod texture_mapping;
 mod textures;
 
 use super::parameters::Parameters;

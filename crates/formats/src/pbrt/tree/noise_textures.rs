@@ -11,8 +11,8 @@
 
 use super::super::parameters::Parameters;
 use super::Mapper;
+use super::coordinates::Coordinates;
 use super::node::{Draft, Given, word};
-use super::texture_mapping::Coordinates;
 use etalon_params::{Class, DMat4, Value};
 
 /// How much finer each octave is than the one before.

@@ -2,7 +2,7 @@
 //!
 //! A texture becomes a value of the tree: a number, a colour, or an object that all its users share. `texture_kinds` maps each type.
 //!
-//! Where pbrt looks a 2-D texture up (`texture_mapping`) is Mitsuba's `to_uv`. Of images, pbrt counts t from the bottom row and Mitsuba v from
+//! Where pbrt looks a 2-D texture up (`coordinates`) is Mitsuba's `to_uv`. Of images, pbrt counts t from the bottom row and Mitsuba v from
 //! the top one, so for them v becomes 1 − t. Texture coordinates of meshes stand as they are in both (Mitsuba turns only those of `obj`
 //! files over).
 

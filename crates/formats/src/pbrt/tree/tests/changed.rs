@@ -1,7 +1,7 @@
 //! Scenes with a few words changed are scenes or have messages; nothing panics, and nothing takes long.
 
 use super::*;
-use crate::changes::{Numbers, changed_files};
+use crate::changed_files::{Numbers, changed_files};
 use std::time::{Duration, Instant};
 
 /// Scenes that have most of what there is.

@@ -59,11 +59,12 @@ impl Recoding {
             }
             FilePixels::Bytes(bytes) => values(&bytes, size, integer),
             FilePixels::Words(words) => values(&words, size, integer),
+            FilePixels::Halves(halves) => values(&halves, size, inverted),
         })
     }
 }
 
-/// A function of the values of integers.
+/// A function of values that are looked up.
 fn values<S: Copy + Into<usize>>(coded: &Coded<S>, size: UVec2, of: impl Fn(f32) -> f32) -> Values {
     let texels = 0..size.x as usize * size.y as usize;
     match coded.channels {
