@@ -37,8 +37,10 @@ fn scene(body: &str) -> Document {
 #[test]
 fn a_text_is_a_scene_of_no_file() {
     let text = "<scene version='3.0.0'>\n  <shape type='$kind'/></scene>";
-    let mut options = ReadOptions::default();
-    options.defines = vec![("kind".to_owned(), "sphere".to_owned())];
+    let options = ReadOptions {
+        defines: vec![("kind".to_owned(), "sphere".to_owned())],
+        ..ReadOptions::default()
+    };
     let scene = document(read_text(text, &options));
     assert_eq!(children(&scene.root)[0].plugin.value, "sphere");
     let lines = read_text(text, &ReadOptions::default()).lines();
