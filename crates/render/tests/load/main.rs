@@ -2,6 +2,7 @@
 
 mod bad_files;
 mod bad_scenes;
+mod frames;
 mod objections;
 
 use etalon_render::pipeline::{LoadOptions, load};
