@@ -5,6 +5,7 @@
 
 pub mod animated;
 pub mod bernstein;
+pub mod bessel_k0;
 pub mod bracket;
 pub mod cone;
 pub mod cross;
@@ -27,6 +28,7 @@ mod swept;
 pub mod transform;
 
 pub use animated::{Animated, FromAffine};
+pub use bessel_k0::bessel_k0;
 pub use bracket::Bracket;
 pub use cone::DirectionCone;
 pub use cross::{cross, difference_of_products};

@@ -53,13 +53,13 @@ pub const LIST: &[Unbuilt] = &[
     },
     Unbuilt {
         class: Class::Subsurface,
-        plugins: &["dipole"],
+        plugins: &["dipole", "multidipole"],
         names: &["g"],
         instead: "nest `<phase type=\"hg\"><float name=\"g\" value=\"…\"/></phase>`",
     },
     Unbuilt {
         class: Class::Subsurface,
-        plugins: &["dipole"],
+        plugins: &["dipole", "multidipole", "adipole"],
         names: &["int_ior", "ext_ior"],
         instead: "a `boundary` that is `smooth` has them; such a surface mirrors as well",
     },

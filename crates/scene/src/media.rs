@@ -139,7 +139,14 @@ fn note_bias_of_profile(
     let MediumDescription::Homogeneous(medium) = medium else {
         return;
     };
+    if !medium.diffuses() {
+        return;
+    }
+    let help = "`randomwalk` is unbiased";
     let Some([profile, exact]) = medium.bias(lookup, LAMBDA) else {
+        let message =
+            "a diffusion profile is biased, where little is scattered or a surface bends above all";
+        diagnostics.push(Diagnostic::note(span, message).help(help));
         return;
     };
     let ([b, g, _, r], walk) = ((100.0 * profile).to_array(), 100.0 * exact);
@@ -148,7 +155,6 @@ fn note_bias_of_profile(
          660, 520 and 450 nm, where a walk lets {:.1}, {:.1} and {:.1} %; where a surface bends or matter is thin it is off by more",
         walk.w, walk.y, walk.x
     );
-    let help = "`randomwalk` is unbiased";
     diagnostics.push(Diagnostic::note(span, message).help(help));
 }
 

@@ -1,16 +1,19 @@
 //! Diffusion profiles: subsurface scattering as a function of the distance between entry and exit.
 //!
-//! They assume a flat surface of a half-space of homogeneous matter: fast, but biased. The contract is
+//! They assume a flat surface of a half-space (`multidipole`: of a slab) of homogeneous matter: fast, but biased. The contract is
 //! [`etalon_transport::DiffusionProfile`].
 
 use crate::HenyeyGreenstein;
+use crate::anisotropic_dipole::{AnisotropicDipole, Grain};
 use crate::beam_diffusion::{Beam, BeamDiffusion};
 use crate::burley::Burley;
 use crate::dipole::Dipole;
+use crate::multipole::Multipole;
 use crate::surface_albedo::{inside_boundary, of_half_space};
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::fresnel;
-use etalon_transport::{Coefficients, DiffusionProfile};
+use etalon_params::Params;
+use etalon_transport::{Coefficients, DiffusionProfile, Exit};
 use glam::Vec4;
 use std::sync::Arc;
 
@@ -69,12 +72,21 @@ pub enum Profile {
     BeamDiffusion(Arc<BeamDiffusion>),
     /// See [`crate::burley`].
     Burley,
+    /// See [`crate::multipole`].
+    Multipole {
+        /// The thickness of the slab (m).
+        thickness: f32,
+    },
+    /// See [`crate::anisotropic_dipole`].
+    AnisotropicDipole(Grain),
 }
 
 impl PartialEq for Profile {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::BeamDiffusion(a), Self::BeamDiffusion(b)) => Arc::ptr_eq(a, b),
+            (Self::Multipole { thickness: a }, Self::Multipole { thickness: b }) => a == b,
+            (Self::AnisotropicDipole(a), Self::AnisotropicDipole(b)) => a == b,
             _ => core::mem::discriminant(self) == core::mem::discriminant(other),
         }
     }
@@ -82,10 +94,32 @@ impl PartialEq for Profile {
 
 impl Profile {
     /// Names of the profiles that are built.
-    pub const BUILT: [&'static str; 3] = ["dipole", "beamdiffusion", "burley"];
+    pub const BUILT: [&'static str; 5] = [
+        "dipole",
+        "beamdiffusion",
+        "burley",
+        "multidipole",
+        "adipole",
+    ];
 
-    /// A profile by name, for a medium with this mean cosine below this boundary.
-    pub fn named(name: &str, g: f32, boundary: &Boundary) -> Option<Self> {
+    /// The profile that a plugin is, for a medium with this mean cosine below this boundary.
+    pub fn from_params(params: &Params<'_>, g: f32, boundary: &Boundary) -> Option<Self> {
+        match params.node.plugin.value.as_str() {
+            "multidipole" => {
+                let what = "a finite number above 0";
+                let thickness =
+                    params.float_where("thickness", 1.0, what, |d| d > 0.0 && d.is_finite());
+                Some(Self::Multipole {
+                    thickness: thickness as f32,
+                })
+            }
+            "adipole" => Grain::from_params(params).map(Self::AnisotropicDipole),
+            name => Self::of_half_space(name, g, boundary),
+        }
+    }
+
+    /// A profile that has no parameters of its own.
+    fn of_half_space(name: &str, g: f32, boundary: &Boundary) -> Option<Self> {
         match name {
             "dipole" => Some(Self::Dipole),
             "burley" => Some(Self::Burley),
@@ -119,6 +153,15 @@ impl Profile {
                     let length = 1.0 / matter.reduced();
                     Lane::Burley(Burley::new(albedo, length, boundary.eta.is_none()))
                 }
+                Self::Multipole { thickness } => {
+                    Lane::Multipole(Multipole::new(&matter, boundary.inside, *thickness))
+                }
+                Self::AnisotropicDipole(grain) => Lane::AnisotropicDipole(AnisotropicDipole::new(
+                    grain,
+                    matter.absorption,
+                    matter.scattering,
+                    boundary.inside,
+                )),
             }
         };
         let lanes = [0, 1, 2, 3].map(lane);
@@ -129,8 +172,17 @@ impl Profile {
         }
     }
 
-    /// Total exitant flux by this profile, and by the exact albedo of a half-space, per lane: the difference is the bias.
-    pub fn bias(&self, coefficients: &Coefficients, g: f32, boundary: Boundary) -> [Vec4; 2] {
+    /// Total exitant flux by this profile, and by the exact albedo of a half-space, per lane: the difference is the bias. `None` for those
+    /// of other matter.
+    pub fn bias(
+        &self,
+        coefficients: &Coefficients,
+        g: f32,
+        boundary: Boundary,
+    ) -> Option<[Vec4; 2]> {
+        if matches!(self, Self::Multipole { .. } | Self::AnisotropicDipole(_)) {
+            return None;
+        }
         let exact = |i: usize| {
             let matter = Matter {
                 absorption: coefficients.absorption[i],
@@ -140,7 +192,7 @@ impl Profile {
             inside_boundary(matter.surface_albedo(), boundary.inside)
         };
         let exact = Vec4::from_array([0, 1, 2, 3].map(exact));
-        [self.at(coefficients, g, boundary).totals, exact]
+        Some([self.at(coefficients, g, boundary).totals, exact])
     }
 }
 
@@ -150,14 +202,38 @@ enum Lane<'a> {
     Dipole(Dipole),
     BeamDiffusion(Beam<'a>),
     Burley(Burley),
+    Multipole(Multipole),
+    AnisotropicDipole(AnisotropicDipole),
 }
 
 impl Lane<'_> {
+    /// By which distances are chosen: most profiles are functions of the distance alone.
     fn radial(&self) -> &dyn Radial {
         match self {
             Self::Dipole(profile) => profile,
             Self::BeamDiffusion(profile) => profile,
             Self::Burley(profile) => profile,
+            Self::Multipole(profile) => &profile.nearest,
+            Self::AnisotropicDipole(profile) => &profile.widths,
+        }
+    }
+
+    fn value(&self, exit: &Exit) -> f32 {
+        match self {
+            Self::Multipole(profile) => profile.value(exit),
+            Self::AnisotropicDipole(profile) => profile.value(exit),
+            Self::Dipole(_) | Self::BeamDiffusion(_) | Self::Burley(_) => {
+                self.radial().value(exit.offset.length())
+            }
+        }
+    }
+
+    /// The distance within which the share `share` of the light leaves.
+    fn reach(&self, share: f32) -> f32 {
+        match self {
+            Self::Multipole(profile) => profile.reach(share),
+            Self::AnisotropicDipole(profile) => profile.reach(share),
+            _ => self.radial().sample(share),
         }
     }
 }
@@ -172,13 +248,14 @@ pub struct ProfileAt<'a> {
 }
 
 impl DiffusionProfile for ProfileAt<'_> {
-    fn value(&self, distance: f32) -> Vec4 {
-        Vec4::from_array(self.lanes.map(|lane| lane.radial().value(distance)))
+    fn value(&self, exit: &Exit) -> Vec4 {
+        Vec4::from_array(self.lanes.map(|lane| lane.value(exit)))
     }
 
     fn density(&self, distance: f32) -> Vec4 {
         let some = self.totals.cmpgt(Vec4::ZERO);
-        Vec4::select(some, self.value(distance) / self.totals, Vec4::ZERO)
+        let values = Vec4::from_array(self.lanes.map(|lane| lane.radial().value(distance)));
+        Vec4::select(some, values / self.totals, Vec4::ZERO)
     }
 
     fn sample(&self, u: f32) -> Option<f32> {
@@ -186,7 +263,7 @@ impl DiffusionProfile for ProfileAt<'_> {
     }
 
     fn reach(&self) -> f32 {
-        let far = |lane: Lane<'_>| lane.radial().sample(1.0 - BEYOND);
+        let far = |lane: Lane<'_>| lane.reach(1.0 - BEYOND);
         self.lanes.map(far).into_iter().fold(0.0, f32::max)
     }
 
@@ -210,6 +287,7 @@ impl DiffusionProfile for ProfileAt<'_> {
 mod tests {
     use super::*;
 
+    const HALF_SPACES: [&str; 3] = ["dipole", "beamdiffusion", "burley"];
     const GLASSY: Boundary = Boundary {
         eta: Some(1.3),
         inside: 0.4726,
@@ -227,11 +305,11 @@ mod tests {
             absorption: Vec4::new(0.001, 0.1, 0.5, 1.0),
             scattering: Vec4::new(1.0, 1.0, 0.5, 0.1),
         };
-        for (name, boundary) in Profile::BUILT
+        for (name, boundary) in HALF_SPACES
             .into_iter()
             .flat_map(|n| [(n, GLASSY), (n, OPEN)])
         {
-            let profile = Profile::named(name, 0.3, &boundary).expect("built");
+            let profile = Profile::of_half_space(name, 0.3, &boundary).expect("built");
             let at = profile.at(&coefficients, 0.3, boundary);
             for (index, lane) in at.lanes.iter().enumerate() {
                 let radial = lane.radial();
@@ -271,12 +349,12 @@ mod tests {
             absorption: Vec4::new(0.0, 0.001, 0.01, 0.1),
             scattering: Vec4::ONE,
         };
-        for (name, boundary) in Profile::BUILT
+        for (name, boundary) in HALF_SPACES
             .into_iter()
             .flat_map(|n| [(n, GLASSY), (n, OPEN)])
         {
-            let profile = Profile::named(name, 0.0, &boundary).expect("built");
-            let [found, exact] = profile.bias(&coefficients, 0.0, boundary);
+            let profile = Profile::of_half_space(name, 0.0, &boundary).expect("built");
+            let [found, exact] = (profile.bias(&coefficients, 0.0, boundary)).expect("known");
             let off = (found / exact - 1.0).abs();
             assert!(found.max_element() <= 1.0001, "{name}: {found}");
             assert!(

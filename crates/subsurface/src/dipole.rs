@@ -17,11 +17,56 @@ use etalon_math::float;
 #[derive(Clone, Copy, Debug)]
 pub struct Dipole {
     /// α'.
-    albedo: f32,
+    pub(crate) albedo: f32,
     /// σtr (m⁻¹).
-    transport: f32,
+    pub(crate) transport: f32,
     /// zᵣ and zᵥ (m).
-    depths: [f32; 2],
+    pub(crate) depths: [f32; 2],
+}
+
+/// Two dipoles with the flux of each, by which profiles without an inverse of their own choose distances.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DipolePair {
+    parts: [Dipole; 2],
+    fluxes: [f32; 2],
+}
+
+impl DipolePair {
+    pub(crate) fn new(parts: [Dipole; 2], fluxes: [f32; 2]) -> Self {
+        let some = |i: usize| {
+            if parts[i].total() > 0.0 {
+                fluxes[i]
+            } else {
+                0.0
+            }
+        };
+        Self {
+            parts,
+            fluxes: [some(0), some(1)],
+        }
+    }
+}
+
+impl Radial for DipolePair {
+    fn value(&self, r: f32) -> f32 {
+        let part = |i: usize| match self.fluxes[i] > 0.0 {
+            true => self.fluxes[i] * self.parts[i].value(r) / self.parts[i].total(),
+            false => 0.0,
+        };
+        part(0) + part(1)
+    }
+
+    fn total(&self) -> f32 {
+        self.fluxes[0] + self.fluxes[1]
+    }
+
+    fn sample(&self, u: f32) -> f32 {
+        let first = self.fluxes[0] / self.total();
+        match u < first {
+            true => self.parts[0].sample(u / first),
+            false => self.parts[1].sample((u - first) / (1.0 - first)),
+        }
+    }
 }
 
 impl Dipole {

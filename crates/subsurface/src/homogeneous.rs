@@ -184,7 +184,7 @@ impl Homogeneous {
             // A profile takes the coefficients at the point of entry anyway.
             medium.varies = false;
             medium.surface = Some(Surface {
-                profile: Profile::named(name, g, &boundary)?,
+                profile: Profile::from_params(params, g, &boundary)?,
                 g,
                 boundary,
             });
@@ -261,7 +261,7 @@ impl Homogeneous {
         self.surface.is_some()
     }
 
-    /// Exitant over entering flux, by the diffusion profile and by the albedo of a half-space, per lane.
+    /// Exitant over entering flux, by the diffusion profile and by the albedo of a half-space, per lane, if it is the profile of one.
     pub fn bias(&self, textures: &impl Textures, lambda: Vec4) -> Option<[Vec4; 2]> {
         let surface = self.surface.as_ref()?;
         let coefficients = self.coefficients(textures, &TexturePoint::at_uv(Vec2::ZERO), lambda);
@@ -270,7 +270,7 @@ impl Homogeneous {
             g,
             boundary,
         } = surface;
-        Some(profile.bias(&coefficients, *g, *boundary))
+        profile.bias(&coefficients, *g, *boundary)
     }
 
     /// σa and σs, at a point of the surface where they vary over it.

@@ -3,6 +3,7 @@
 //! A medium is described by spectra and volumes ([`MediumDescription`]) and resolved at the wavelengths of a path into
 //! plain numbers ([`MediumAtWavelengths`]), which know how to fly ([`etalon_transport::Medium`]).
 
+pub mod anisotropic_dipole;
 pub mod beam_diffusion;
 pub mod blend;
 pub mod burley;
@@ -17,6 +18,7 @@ pub mod majorants;
 pub mod materials;
 pub mod media;
 pub mod mie;
+pub mod multipole;
 pub mod phases;
 pub mod rayleigh;
 mod rotational;

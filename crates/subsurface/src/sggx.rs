@@ -95,21 +95,13 @@ fn visible_normal(s: &Mat3, wo: Vec3, u: Vec2) -> Option<Vec3> {
 impl Sggx {
     /// Reads `S`.
     pub(crate) fn from_params(params: &Params<'_>, build: &mut dyn Build) -> Option<Self> {
-        let accepted = "six numbers (xx, yy, zz, xy, xz, yz) of a matrix without negative eigenvalues, or a volume of six channels";
+        let accepted = "six numbers (xx, yy, zz, xy, xz, yz), or all nine, of a matrix without negative eigenvalues, or a volume of six channels";
         let Some(property) = params.property("S") else {
             params.missing("S", accepted);
             return None;
         };
         if let Value::String(text) = &property.value {
-            let words = text.split([',', ' ']).filter(|word| !word.is_empty());
-            let numbers: Option<Vec<f32>> = words.map(|word| word.parse().ok()).collect();
-            let s = numbers.and_then(|numbers| match numbers[..] {
-                [xx, yy, zz, xy, xz, yz] => {
-                    Some(symmetric(Vec3::new(xx, yy, zz), Vec3::new(xy, xz, yz)))
-                }
-                _ => None,
-            });
-            let sound = s.filter(is_sound);
+            let sound = symmetric_matrix(text);
             if sound.is_none() {
                 params.refuse("S", text, accepted);
             }
@@ -143,6 +135,20 @@ impl Sggx {
             }
         }
     }
+}
+
+/// A matrix without negative eigenvalues by the text of its six numbers xx, yy, zz, xy, xz, yz, or of all nine.
+pub(crate) fn symmetric_matrix(text: &str) -> Option<Mat3> {
+    let words = text.split([',', ' ']).filter(|word| !word.is_empty());
+    let numbers: Option<Vec<f32>> = words.map(|word| word.parse().ok()).collect();
+    let s = match numbers?[..] {
+        [xx, yy, zz, xy, xz, yz] => symmetric(Vec3::new(xx, yy, zz), Vec3::new(xy, xz, yz)),
+        [xx, xy, xz, yx, yy, yz, zx, zy, zz] if [xy, xz, yz] == [yx, zx, zy] => {
+            symmetric(Vec3::new(xx, yy, zz), Vec3::new(xy, xz, yz))
+        }
+        _ => return None,
+    };
+    Some(s).filter(is_sound)
 }
 
 /// Whether a matrix is finite and has no negative eigenvalue.

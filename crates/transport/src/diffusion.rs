@@ -4,15 +4,25 @@
 //! S(xo, ωo, xi, ωi) = (1 − F(ωo)) R(|xo − xi|) S_w(ωi),   S_w(ω) = (1 − F(ω)) / (c π)
 //! ```
 //!
-//! with R the flux that leaves per area at a distance, per flux that has entered at a point, and c such that S_w has the mean 1
+//! with R the flux that leaves per area at a point nearby, per flux that has entered, and c such that S_w has the mean 1
 //! over diffuse light (M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, 3rd ed. 2016, section 11.4).
 
-use glam::Vec4;
+use glam::{Vec3, Vec4};
 
-/// A radial profile at a path's wavelengths.
+/// A point where light leaves, as seen from where it entered: in a frame there whose z is the outward normal and whose x is along
+/// ∂p/∂u.
+#[derive(Clone, Copy, Debug)]
+pub struct Exit {
+    /// From the entry (m).
+    pub offset: Vec3,
+    /// The outward unit normal.
+    pub normal: Vec3,
+}
+
+/// A profile at a path's wavelengths. Points are chosen by their distance, whatever else their light depends on.
 pub trait DiffusionProfile {
-    /// R (m⁻²) at a distance (m), per lane.
-    fn value(&self, distance: f32) -> Vec4;
+    /// R (m⁻²) at a point, per lane.
+    fn value(&self, exit: &Exit) -> Vec4;
 
     /// The density per area (m⁻²) with which [`DiffusionProfile::sample`] finds a point at a distance, for each lane had it been
     /// the one that chose.
@@ -36,7 +46,7 @@ pub trait DiffusionProfile {
 pub enum NoProfile {}
 
 impl DiffusionProfile for NoProfile {
-    fn value(&self, _: f32) -> Vec4 {
+    fn value(&self, _: &Exit) -> Vec4 {
         match *self {}
     }
 

@@ -41,7 +41,7 @@ pub use bsdf::{Bsdf, BsdfSample, TransportMode};
 pub use build::uniformity::{is_varying, refuse_varying};
 pub use build::{Build, SpectrumKind, file};
 pub use camera::{ApertureHit, Camera, CameraRay, CameraRays, CameraSample};
-pub use diffusion::{DiffusionProfile, NoProfile};
+pub use diffusion::{DiffusionProfile, Exit, NoProfile};
 pub use film::{Channel, Film, FilmSample, Placing, Sink, TileSink};
 pub use ids::{InstanceId, LightId, MaterialId, MediumId, ShapeId, TextureId};
 pub use integrator::{Integrator, Pass, PixelSample, Preparation, SampleJob};

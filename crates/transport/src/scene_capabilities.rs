@@ -216,7 +216,8 @@ impl SceneCapabilities {
     /// with the names of those that do.
     pub fn diffusion_unseen(&self, able: &str) -> Option<Incompatibility> {
         let profile = || {
-            let message = "this integrator cannot have the scene's diffusion profiles (`dipole`, `beamdiffusion`, `burley`)";
+            let message =
+                "this integrator cannot have the scene's diffusion profiles, as `dipole` is one";
             let help = format!(
                 "integrators that can: {able}; or let light walk: `<subsurface type=\"randomwalk\">`"
             );

@@ -9,7 +9,7 @@ use etalon_params::{Class, DMat4, Diagnostic, Spanned, Value};
 use glam::DVec4;
 
 /// Parameters that have another name today, with the plugins they belong to.
-const RENAMED: [(Class, &[&str], &str, &str); 10] = [
+const RENAMED: [(Class, &[&str], &str, &str); 12] = [
     (
         Class::Bsdf,
         &["diffuse", "roughdiffuse"],
@@ -54,6 +54,13 @@ const RENAMED: [(Class, &[&str], &str, &str); 10] = [
         &["heightfield"],
         "shading_normals",
         "face_normals",
+    ),
+    (Class::Subsurface, &["adipole"], "D", "moments"),
+    (
+        Class::Subsurface,
+        &["adipole"],
+        "sigma_tn",
+        "normal_extinction",
     ),
 ];
 
@@ -138,7 +145,8 @@ pub(crate) fn upgrade(object: &mut DraftObject) -> Option<Diagnostic> {
         {
             add_default(object, "material", Value::String("Cu".into()));
         }
-        (Class::Medium, "homogeneous") | (Class::Subsurface, "dipole")
+        (Class::Medium, "homogeneous")
+        | (Class::Subsurface, "dipole" | "multidipole" | "adipole")
             if !has_any(object, &COEFFICIENTS) =>
         {
             add_default(object, "material", Value::String("skin1".into()));

@@ -13,7 +13,7 @@ use etalon_math::{Density, Frame, SolidAngle, float};
 use etalon_sampling::Sampler;
 use etalon_sampling::warps::square_to_cosine_hemisphere;
 use etalon_transport::{
-    Bsdf, BsdfSample, DiffusionProfile, Medium, MediumId, Ray, SamplePdf, SurfaceInteraction,
+    Bsdf, BsdfSample, DiffusionProfile, Exit, Medium, MediumId, Ray, SamplePdf, SurfaceInteraction,
     Surfaces, TransportMode, World,
 };
 use glam::{Vec2, Vec3, Vec4};
@@ -189,7 +189,7 @@ impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
         medium: MediumId,
     ) -> Option<SurfaceInteraction> {
         let event = self.draw_event();
-        let frame = Frame::from_normal(entered.normal);
+        let frame = Frame::from_normal_and_tangent(entered.normal, entered.dp_du);
         let axes = [frame.n, frame.s, frame.t];
         let axis = match event.lobe {
             u if u < FACING[0] => 0,
@@ -212,13 +212,19 @@ impl<'w, W: World, S: Sampler, C: PathHooks> PathState<'w, W, S, C> {
         let (vertex, count) = crossed(world, line, medium, &mut stream)?;
         let way = vertex.position - entered.position;
         let least = 1e-6 * reach;
+        if !(way.length() > least) {
+            return None;
+        }
         let mut density = Vec4::ZERO;
         for (axis, probability) in axes.into_iter().zip(FACING) {
             let along = way.dot(axis);
             let r = float::safe_sqrt(way.length_squared() - along * along).max(least);
             density += profile.density(r) * (probability * vertex.normal.dot(axis).abs());
         }
-        let value = profile.value(way.length().max(least));
+        let value = profile.value(&Exit {
+            offset: frame.to_local(way),
+            normal: frame.to_local(vertex.normal),
+        });
         if !(density.x > 0.0) {
             return None;
         }

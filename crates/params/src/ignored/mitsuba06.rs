@@ -296,7 +296,7 @@ pub(super) const LIST: &[Ignored] = &[
     ),
     of(
         Class::Subsurface,
-        &["dipole"],
+        &["dipole", "multidipole", "adipole"],
         &["irr_samples", "quality", "sample_multiplier"],
         "They choose how finely Mitsuba 0.6 spread points over the surface; here nothing is interpolated.",
     ),

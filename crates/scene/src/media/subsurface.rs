@@ -9,7 +9,7 @@
 //!   surfaces with lights;
 //! - `rough`: a `roughdielectric`.
 //!
-//! The diffusion profiles (`dipole`, `beamdiffusion`, `burley`) are the same, with a profile in place of the walk
+//! The diffusion profiles (`dipole` and others) are the same, with a profile in place of the walk
 //! (`etalon_subsurface::diffusion`).
 
 use crate::builder::Builder;
