@@ -27,7 +27,7 @@ pub fn bessel_k0(x: f32) -> f32 {
         return polynomial(2.0 / x, &series) * exp(-x) / x.sqrt();
     }
     let series = [
-        -0.577_215_66,
+        -0.577_215_7,
         0.422_784_2,
         0.230_697_56,
         0.034_885_9,
