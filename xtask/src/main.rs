@@ -17,6 +17,7 @@ mod mutants;
 mod plugins;
 mod references;
 mod scenes;
+mod schema;
 mod speed;
 mod tables;
 mod tabulate;

@@ -8,6 +8,7 @@ use crate::compatibility::{self, MITSUBA_3, MITSUBA_06};
 use crate::gallery::stages::Stages;
 use crate::hearing::{Heard, Hearing};
 use crate::load::{CLASSES, load, turn};
+use crate::schema::{relax_ng, xsd};
 use crate::words::{Plugin, Words};
 use etalon_params::{Class, ignored};
 use etalon_validation::folders;
@@ -21,11 +22,24 @@ pub(crate) fn page() -> PathBuf {
     folders::root().join("docs/scene-format.md")
 }
 
-/// Writes the page.
+/// The pages and schemas that say what plugins ask for.
+fn pages() -> Result<Vec<(PathBuf, String)>, String> {
+    let words = Words::read()?;
+    let (all, wrong) = heard(&words);
+    let schemas = folders::root().join("docs/schema");
+    Ok(vec![
+        (page(), text(&words, &all, wrong)?),
+        (schemas.join("etalon.rng"), relax_ng::schema(&all)),
+        (schemas.join("etalon.xsd"), xsd::schema(&all)),
+    ])
+}
+
+/// Writes the pages.
 pub(crate) fn run() -> Result<(), String> {
-    let path = page();
-    fs::write(&path, text()?).map_err(|e| format!("{}: {e}", path.display()))?;
-    println!("{}", path.display());
+    for (path, text) in pages()? {
+        fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
+        println!("{}", path.display());
+    }
     for version in [MITSUBA_3, MITSUBA_06] {
         let path = version.page();
         let text = compatibility::text(&version)?;
@@ -58,23 +72,19 @@ fn built(class: Class, surroundings: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// The page.
-pub(crate) fn text() -> Result<String, String> {
+/// Plugins with the same words, and what they ask for.
+pub(crate) struct Described<'a> {
+    pub(crate) class: Class,
+    pub(crate) plugin: &'a Plugin,
+    pub(crate) rows: BTreeMap<String, Heard>,
+}
+
+/// What all plugins ask for, in the order of the page, and what is wrong with their words.
+pub(crate) fn heard(words: &Words) -> (Vec<Described<'_>>, Vec<String>) {
     let _turn = turn();
-    let words = Words::read()?;
-    let stages = Stages::read()?;
-    let mut wrong = Vec::new();
-    let mut unused: BTreeSet<&str> = words.parameters.keys().map(String::as_str).collect();
-    let mut out = String::from(
-        "# The scene format\n\n\
-         A scene is Mitsuba 3 XML. This page lists every plugin and every parameter that is built, as `etalon info --plugins`\n\
-         does; it is written by `cargo xtask plugins` from what the code asks for. What goes beyond Mitsuba is told at more length\n\
-         in [extensions.md](extensions.md); what moves, in [animation.md](animation.md). Lengths are metres, angles degrees,\n\
-         wavelengths nanometres. Parameters without a default may be left out unless they are required.\n",
-    );
-    for (class, title, surroundings) in CLASSES {
+    let (mut all, mut wrong) = (Vec::new(), Vec::new());
+    for (class, _, surroundings) in CLASSES {
         let mut undescribed = built(class, surroundings);
-        let _ = write!(out, "\n## {title}\n");
         let of_class = words
             .plugin
             .iter()
@@ -100,20 +110,49 @@ pub(crate) fn text() -> Result<String, String> {
                     rows.entry(parameter).or_default().and(&heard);
                 }
             }
-            describe(
-                &mut out,
-                (plugin, stages.pictures(plugin)),
-                &rows,
-                &words.parameters,
-                &mut unused,
-                &mut wrong,
-            );
+            all.push(Described {
+                class,
+                plugin,
+                rows,
+            });
         }
         wrong.extend(
             undescribed
                 .into_iter()
                 .map(|name| format!("{} `{name}` has no words", class.name())),
         );
+    }
+    (all, wrong)
+}
+
+/// The page of what was heard.
+pub(crate) fn text(
+    words: &Words,
+    all: &[Described<'_>],
+    mut wrong: Vec<String>,
+) -> Result<String, String> {
+    let stages = Stages::read()?;
+    let mut unused: BTreeSet<&str> = words.parameters.keys().map(String::as_str).collect();
+    let mut out = String::from(
+        "# The scene format\n\n\
+         A scene is Mitsuba 3 XML. This page lists every plugin and every parameter that is built, as `etalon info --plugins`\n\
+         does; it is written by `cargo xtask plugins` from what the code asks for. What goes beyond Mitsuba is told at more length\n\
+         in [extensions.md](extensions.md); what moves, in [animation.md](animation.md). Lengths are metres, angles degrees,\n\
+         wavelengths nanometres. Parameters without a default may be left out unless they are required. Editors may be given\n\
+         [etalon.xsd](schema/etalon.xsd); [etalon.rng](schema/etalon.rng) is RELAX NG, and knows the parameters of each plugin.\n",
+    );
+    for (class, title, _) in CLASSES {
+        let _ = write!(out, "\n## {title}\n");
+        for described in all.iter().filter(|described| described.class == class) {
+            describe(
+                &mut out,
+                (described.plugin, stages.pictures(described.plugin)),
+                &described.rows,
+                &words.parameters,
+                &mut unused,
+                &mut wrong,
+            );
+        }
     }
     wrong.extend(
         unused
@@ -227,14 +266,16 @@ fn describe<'a>(
 mod tests {
     use super::*;
 
-    /// Every plugin and parameter has its words and its example loads; the page is what the code says.
+    /// Every plugin and parameter has its words and its example loads; the page and the schemas are what the code says.
     #[test]
     fn the_page_of_the_scene_format_is_up_to_date() {
-        let text = text().unwrap_or_else(|wrong| panic!("{wrong}"));
-        let page = fs::read_to_string(page()).expect("the page is there");
-        assert!(
-            page == text,
-            "`cargo xtask plugins` writes docs/scene-format.md anew"
-        );
+        for (path, text) in pages().unwrap_or_else(|wrong| panic!("{wrong}")) {
+            let there = fs::read_to_string(&path).expect("it is there");
+            assert!(
+                there == text,
+                "`cargo xtask plugins` writes {} anew",
+                path.display()
+            );
+        }
     }
 }

@@ -312,3 +312,34 @@ fn profiles_differ_in_build_time_only() {
         .collect();
     assert_eq!(keys, ["codegen-units", "incremental", "inherits", "lto"]);
 }
+
+/// A package holds its own folder only: what a crate includes must lie there, if by a link.
+#[test]
+fn crates_include_nothing_from_outside_of_them() {
+    for (room, folder) in rooms() {
+        let mut files = Vec::new();
+        rust_files(&folder.join("src"), &mut files);
+        for file in files {
+            let text = fs::read_to_string(&file).expect("readable");
+            let above = file
+                .strip_prefix(&folder)
+                .expect("within")
+                .components()
+                .count()
+                - 1;
+            for (at, _) in text.match_indices("include_") {
+                let Some((_, rest)) = text[at..].split_once('"') else {
+                    continue;
+                };
+                let path = rest.split('"').next().unwrap_or_default();
+                let up = path.split('/').take_while(|part| *part == "..").count();
+                let is_test = file.components().any(|part| part.as_os_str() == "tests");
+                assert!(
+                    up <= above || is_test || room == "xtask",
+                    "{} includes {path}, which its package lacks",
+                    file.display()
+                );
+            }
+        }
+    }
+}

@@ -45,6 +45,8 @@ use std::path::{Path, PathBuf};
     about,
     max_term_width = 100,
     after_help = "\
+`etalon --version --verbose` says of which commit and for which processors this program was built.
+
 Exit codes: 0 done, 2 bad input or usage, 130 ended by Ctrl-C or a signal; `compare`: 1 different, 3 inconclusive."
 )]
 pub struct Cli {

@@ -28,12 +28,11 @@ pub fn asked() -> bool {
 /// # Errors
 /// If the system refuses; signals end the process then.
 pub fn listen() -> std::io::Result<()> {
-    let mut signals = vec![SIGINT, SIGTERM];
     #[cfg(unix)]
-    if !hangups_are_ignored() {
-        signals.push(signal_hook::consts::SIGHUP);
-    }
-    for signal in signals {
+    let hangup = (!hangups_are_ignored()).then_some(signal_hook::consts::SIGHUP);
+    #[cfg(not(unix))]
+    let hangup = None;
+    for signal in [SIGINT, SIGTERM].into_iter().chain(hangup) {
         // Done in this order: only a flag that is set already ends the process.
         flag::register_conditional_shutdown(signal, STOPPED.into(), Arc::clone(&ASKED))?;
         flag::register(signal, Arc::clone(&ASKED))?;

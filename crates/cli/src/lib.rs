@@ -14,5 +14,6 @@ pub mod preview;
 pub mod progress;
 mod quoting;
 pub mod say;
+pub mod version;
 
 pub use etalon_render::VERSION;

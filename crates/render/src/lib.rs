@@ -16,6 +16,7 @@ mod first_half;
 pub mod judge;
 pub mod load_options;
 pub mod loaded;
+pub mod machine;
 pub mod memory;
 pub mod metrics;
 mod more_samples;

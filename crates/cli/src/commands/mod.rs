@@ -37,6 +37,9 @@ pub fn run(command: &Command) -> ExitCode {
             "a file that grows too large will end the process: {error}"
         ));
     }
+    if let Some(remark) = etalon_render::machine::remark() {
+        note(remark);
+    }
     match command {
         Command::Render(args) => render::run(args),
         Command::Merge(args) => merge::run(args),

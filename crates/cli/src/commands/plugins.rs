@@ -4,8 +4,9 @@ use super::{answer, fail};
 use etalon_params::{plugins, suggest};
 use std::process::ExitCode;
 
-/// Written by `cargo xtask plugins` from what the code asks for; a test keeps it up to date.
-const PAGE: &str = include_str!("../../../../docs/scene-format.md");
+/// Written by `cargo xtask plugins` from what the code asks for; a test keeps it up to date. A link to the page in `docs`, which
+/// packages have a copy of.
+const PAGE: &str = include_str!("../../scene-format.md");
 
 /// A plugin's part of the page.
 struct Section<'a> {

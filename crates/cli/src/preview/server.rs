@@ -4,16 +4,14 @@
 //! read the answers. So a request must name this host and port, and nothing but reading is possible.
 
 use super::feed::Feed;
+use etalon_render::report::COLOURS;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;
 use tiny_http::{Header, Method, Request, Response, Server};
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
-const SCRIPT: &str = concat!(
-    include_str!("../../../render/src/report/colours.js"),
-    include_str!("page.js")
-);
+const SCRIPT: &str = include_str!("page.js");
 
 /// What the page may load: what this server gives.
 const POLICY: &str = "default-src 'none'; connect-src 'self'; style-src 'self'; script-src 'self'; img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -68,7 +66,10 @@ fn answer(request: &Request, port: u16, feed: &Feed) -> Answer {
     match path {
         "/" => with_type(PAGE, "text/html; charset=utf-8"),
         "/page.css" => with_type(STYLE, "text/css; charset=utf-8"),
-        "/page.js" => with_type(SCRIPT, "text/javascript; charset=utf-8"),
+        "/page.js" => with_type(
+            &[COLOURS, SCRIPT].concat(),
+            "text/javascript; charset=utf-8",
+        ),
         "/state" => with_type(&feed.state().to_string(), "application/json"),
         _ => picture(path, feed)
             .unwrap_or_else(|| text("there is nothing here").with_status_code(404)),

@@ -69,6 +69,35 @@ fn plugins_and_their_parameters_are_told() {
 fn the_version_is_told() {
     let said = Workshop::new().run(&["--version"]).fine().stdout;
     assert_eq!(said, format!("etalon {}\n", env!("CARGO_PKG_VERSION")));
+    for order in [["--version", "--verbose"], ["--verbose", "-V"]] {
+        let all = Workshop::new().run(&order).fine().stdout;
+        assert!(all.starts_with(&said), "{all}");
+        for line in ["\ncommit: ", "\ntarget: ", "\ninstructions: "] {
+            assert!(all.contains(line), "{line} in {all}");
+        }
+    }
+}
+
+/// A processor of 2008, if the emulator of one is installed, is told what it lacks instead of being stopped without a word.
+#[test]
+#[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
+fn a_processor_without_avx2_is_refused_in_words() {
+    let binary = env!("CARGO_BIN_EXE_etalon");
+    let old = |arguments: &[&str]| {
+        (std::process::Command::new("qemu-x86_64").args(["-cpu", "Nehalem", binary]))
+            .args(arguments)
+            .output()
+    };
+    let Ok(ran) = old(&["--version"]) else {
+        eprintln!("not tried: there is no qemu-x86_64");
+        return;
+    };
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert_eq!(ran.status.code(), Some(2), "{said}");
+    assert!(
+        said.starts_with("error: this processor has no AVX2") && said.contains("target-cpu=native"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -26,7 +26,7 @@ mod references;
 mod spectrum_file;
 mod substitute;
 mod syntax;
-mod tags;
+pub mod tags;
 pub(crate) mod transform;
 mod upgrade;
 mod value;

@@ -4,7 +4,7 @@ use etalon_params::Class;
 
 /// What a tag means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Tag {
+pub enum Tag {
     /// An object of a class.
     Object(Class),
     /// `<float>`.
@@ -44,7 +44,7 @@ pub(crate) enum Tag {
 }
 
 /// Every tag that an object may contain.
-pub(crate) const TAGS: [(&str, Tag); 31] = [
+pub const TAGS: [(&str, Tag); 31] = [
     ("scene", Tag::Object(Class::Scene)),
     ("bsdf", Tag::Object(Class::Bsdf)),
     ("emitter", Tag::Object(Class::Emitter)),
@@ -79,7 +79,7 @@ pub(crate) const TAGS: [(&str, Tag); 31] = [
 ];
 
 /// The operations of a `<transform>` with the attributes each takes (`!` marks required ones).
-pub(crate) const OPERATIONS: [(&str, &[&str]); 5] = [
+pub const OPERATIONS: [(&str, &[&str]); 5] = [
     ("translate", &["x", "y", "z", "value"]),
     ("scale", &["x", "y", "z", "value"]),
     ("rotate", &["!angle", "x", "y", "z", "value"]),
@@ -102,7 +102,7 @@ impl Tag {
     }
 
     /// The attributes it takes; `!` marks those it needs.
-    pub(crate) fn attributes(self) -> &'static [&'static str] {
+    pub fn attributes(self) -> &'static [&'static str] {
         match self {
             Self::Object(_) => &["!type", "id", "name"],
             Self::Float | Self::Integer | Self::Boolean | Self::String | Self::Srgb => {

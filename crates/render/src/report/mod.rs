@@ -26,6 +26,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 /// The look of all reports.
 pub const STYLE: &str = include_str!("report.css");
 
+/// How errors become colours.
+pub const COLOURS: &str = include_str!("colours.js");
+
 /// What all reports do.
 pub const SCRIPT: &str = concat!(include_str!("colours.js"), include_str!("report.js"));
 

@@ -1,0 +1,345 @@
+//! RELAX NG: which parameters each plugin takes, and by which tags.
+//!
+//! An object's pattern is a choice over the plugins of its class. What depends on a `$parameter` may be anything there, and values are
+//! looked at as far as their tag says: whether a number is in its range is for `etalon` to say.
+
+use super::xml::Xml;
+use crate::plugins::Described;
+use etalon_formats::mitsuba::tags::{OPERATIONS, TAGS, Tag};
+use etalon_params::{Class, ignored};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What the schema says of itself.
+const REMARK: &str =
+    "RELAX NG of Etalon's scenes (Mitsuba 3 XML), written by `cargo xtask plugins`";
+
+/// Numbers that are known when a scene is read only: by a `$name`, or an expression.
+const COMPUTED: &str = r".*[$(*/+\^].*|.*[0-9.)]\s*-\s*.*|-?(pi|tau|e)";
+
+/// Names of parameters by the tags that give their values.
+type Slots = BTreeMap<Vec<&'static str>, BTreeSet<String>>;
+
+/// The schema.
+pub(crate) fn schema(all: &[Described<'_>]) -> String {
+    let mut xml = Xml::new(REMARK);
+    let spaces = [
+        ("xmlns", "http://relaxng.org/ns/structure/1.0"),
+        (
+            "datatypeLibrary",
+            "http://www.w3.org/2001/XMLSchema-datatypes",
+        ),
+    ];
+    xml.element("grammar", &spaces, |xml| {
+        xml.element("start", &[], |xml| xml.leaf("ref", &[("name", "scene")]));
+        let classes: BTreeSet<Class> = all.iter().map(|described| described.class).collect();
+        scene(xml, &classes);
+        for (name, kind) in [("number", "double"), ("whole", "integer")] {
+            define(xml, name, |xml| {
+                xml.element("choice", &[], |xml| {
+                    xml.leaf("data", &[("type", kind)]);
+                    pattern(xml, COMPUTED);
+                });
+            });
+        }
+        define(xml, "truth", |xml| pattern(xml, r"[Tt]rue|[Ff]alse|.*\$.*"));
+        transforms(xml);
+        for (name, tag) in TAGS {
+            if !matches!(tag, Tag::Object(_)) {
+                define(xml, &format!("{name}.value"), |xml| value(xml, tag));
+            }
+        }
+        language(xml);
+        anything(xml);
+        for class in classes {
+            body(xml, class, all.iter().filter(|d| d.class == class));
+        }
+    });
+    xml.finish()
+}
+
+fn define(xml: &mut Xml, name: &str, children: impl FnOnce(&mut Xml)) {
+    xml.element("define", &[("name", name)], children);
+}
+
+fn refer(xml: &mut Xml, name: &str) {
+    xml.leaf("ref", &[("name", name)]);
+}
+
+/// A text of this form.
+fn pattern(xml: &mut Xml, form: &str) {
+    xml.element("data", &[("type", "string")], |xml| {
+        xml.text("param", &[("name", "pattern")], form);
+    });
+}
+
+fn any_number_of(xml: &mut Xml, choices: impl FnOnce(&mut Xml)) {
+    xml.element("zeroOrMore", &[], |xml| xml.element("choice", &[], choices));
+}
+
+/// An attribute `name` that is one of these, or any.
+fn named(xml: &mut Xml, names: Option<&BTreeSet<String>>) {
+    let Some(names) = names else {
+        xml.element("optional", &[], |xml| {
+            xml.leaf("attribute", &[("name", "name")])
+        });
+        return;
+    };
+    xml.element("attribute", &[("name", "name")], |xml| {
+        xml.element("choice", &[], |xml| {
+            for name in names {
+                xml.text("value", &[], name);
+            }
+        });
+    });
+}
+
+/// The names of the tags of a class's objects; a texture may be a `<spectrum type="…">` too.
+fn tags(class: Class) -> impl Iterator<Item = &'static str> {
+    (TAGS.into_iter())
+        .filter(move |(_, tag)| {
+            *tag == Tag::Object(class) || (class, *tag) == (Class::Texture, Tag::Spectrum)
+        })
+        .map(|(name, _)| name)
+}
+
+fn scene(xml: &mut Xml, classes: &BTreeSet<Class>) {
+    define(xml, "scene", |xml| {
+        xml.element("element", &[("name", "scene")], |xml| {
+            xml.element("optional", &[], |xml| {
+                xml.leaf("attribute", &[("name", "version")])
+            });
+            any_number_of(xml, |xml| {
+                refer(xml, "language");
+                for class in classes {
+                    objects(xml, *class, None);
+                }
+                slots(xml, &of_ignored(Class::Scene, &[]));
+            });
+        });
+    });
+}
+
+/// The attributes of a tag, but its name, and what it holds.
+fn value(xml: &mut Xml, tag: Tag) {
+    for attribute in tag.attributes() {
+        let name = attribute.trim_start_matches('!');
+        if name == "name" {
+            continue;
+        }
+        let typed = |xml: &mut Xml| match (tag, name) {
+            (Tag::Integer, "value") => refer(xml, "whole"),
+            (Tag::Boolean, "value") => refer(xml, "truth"),
+            (Tag::Float, "value") | (_, "x" | "y" | "z" | "temperature" | "scale") => {
+                refer(xml, "number");
+            }
+            _ => xml.leaf("text", &[]),
+        };
+        let here = |xml: &mut Xml| xml.element("attribute", &[("name", name)], typed);
+        match attribute.starts_with('!') {
+            true => here(xml),
+            false => xml.element("optional", &[], here),
+        }
+    }
+    match tag {
+        Tag::Transform => any_number_of(xml, |xml| refer(xml, "operation")),
+        Tag::Animation => any_number_of(xml, |xml| refer(xml, "key")),
+        _ if tag.attributes() == ["!name"] => xml.leaf("empty", &[]),
+        _ => {}
+    }
+}
+
+fn transforms(xml: &mut Xml) {
+    define(xml, "operation", |xml| {
+        xml.element("choice", &[], |xml| {
+            for (name, attributes) in OPERATIONS {
+                xml.element("element", &[("name", name)], |xml| {
+                    for attribute in attributes {
+                        let bare = attribute.trim_start_matches('!');
+                        let here = |xml: &mut Xml| {
+                            xml.element("attribute", &[("name", bare)], |xml| match bare {
+                                "x" | "y" | "z" | "angle" => refer(xml, "number"),
+                                _ => xml.leaf("text", &[]),
+                            });
+                        };
+                        match attribute.starts_with('!') {
+                            true => here(xml),
+                            false => xml.element("optional", &[], here),
+                        }
+                    }
+                });
+            }
+        });
+    });
+    // A value at a moment.
+    define(xml, "key", |xml| {
+        xml.element("choice", &[], |xml| {
+            for (name, tag) in TAGS {
+                if tag.attributes().contains(&"!name")
+                    && !matches!(tag, Tag::Default | Tag::Animation)
+                {
+                    xml.element("element", &[("name", name)], |xml| {
+                        for attribute in ["time", "interpolation"] {
+                            xml.element("optional", &[], |xml| {
+                                xml.leaf("attribute", &[("name", attribute)]);
+                            });
+                        }
+                        refer(xml, &format!("{name}.value"));
+                    });
+                }
+            }
+        });
+    });
+}
+
+/// What belongs to the language, and may stand in any object.
+fn language(xml: &mut Xml) {
+    define(xml, "language", |xml| {
+        xml.element("choice", &[], |xml| {
+            for name in ["ref", "alias", "include", "default", "path"] {
+                xml.element("element", &[("name", name)], |xml| {
+                    if name != "alias" && name != "path" {
+                        named(xml, None);
+                    }
+                    refer(xml, &format!("{name}.value"));
+                });
+            }
+        });
+    });
+}
+
+/// What an object may hold whose `type` is not known.
+fn anything(xml: &mut Xml) {
+    define(xml, "anything", |xml| {
+        any_number_of(xml, |xml| {
+            xml.element("element", &[], |xml| {
+                xml.leaf("anyName", &[]);
+                xml.element("zeroOrMore", &[], |xml| {
+                    xml.element("attribute", &[], |xml| {
+                        xml.leaf("anyName", &[]);
+                    });
+                });
+                refer(xml, "anything");
+            });
+        });
+    });
+}
+
+/// Objects of a class, with one of these names or any.
+fn objects(xml: &mut Xml, class: Class, names: Option<&BTreeSet<String>>) {
+    for tag in tags(class) {
+        xml.element("element", &[("name", tag)], |xml| {
+            named(xml, names);
+            xml.element("optional", &[], |xml| {
+                xml.leaf("attribute", &[("name", "id")])
+            });
+            refer(xml, &format!("{}.body", class.name()));
+        });
+    }
+}
+
+/// The tags by which a value of this kind is given, in the words of [`etalon_params::questions::Question`].
+fn tags_of(kind: &str) -> Vec<&'static str> {
+    let bare = kind.trim_start_matches("an ").trim_start_matches("a ");
+    match bare {
+        "number" => vec!["float", "integer", "animation"],
+        "integer" => vec!["integer"],
+        "string" => vec!["string"],
+        "transform" => vec!["transform"],
+        "transform or an animation" => vec!["transform", "animation"],
+        "point or vector" => vec!["point", "vector", "animation"],
+        "number or a name" => vec!["float", "integer", "string"],
+        _ if bare.starts_with("boolean") => vec!["boolean"],
+        _ => vec![
+            "float",
+            "integer",
+            "boolean",
+            "string",
+            "point",
+            "vector",
+            "rgb",
+            "srgb",
+            "blackbody",
+            "spectrum",
+            "transform",
+            "animation",
+            "texture",
+            "volume",
+        ],
+    }
+}
+
+/// Parameters by the tags that give their values.
+fn slots(xml: &mut Xml, slots: &Slots) {
+    for (tags, names) in slots {
+        for tag in tags {
+            match *tag {
+                "texture" => objects(xml, Class::Texture, Some(names)),
+                "volume" => objects(xml, Class::Volume, Some(names)),
+                tag => xml.element("element", &[("name", tag)], |xml| {
+                    named(xml, Some(names));
+                    refer(xml, &format!("{tag}.value"));
+                }),
+            }
+        }
+    }
+}
+
+/// Parameters of Mitsuba's that are accepted and change nothing.
+fn of_ignored(class: Class, plugins: &[String]) -> Slots {
+    let matching = ignored::list().filter(|entry| {
+        let is_of = |name: &&str| plugins.iter().any(|plugin| plugin == name);
+        entry.class == class
+            && (entry.plugins.is_empty() || entry.plugins.iter().any(|p| is_of(&p)))
+    });
+    let names: BTreeSet<String> = matching
+        .flat_map(|entry| entry.names.iter().map(|name| (*name).to_owned()))
+        .collect();
+    match names.is_empty() {
+        true => Slots::new(),
+        false => Slots::from([(tags_of(""), names)]),
+    }
+}
+
+fn body<'a>(xml: &mut Xml, class: Class, plugins: impl Iterator<Item = &'a Described<'a>>) {
+    define(xml, &format!("{}.body", class.name()), |xml| {
+        xml.element("choice", &[], |xml| {
+            xml.element("group", &[], |xml| {
+                xml.element("attribute", &[("name", "type")], |xml| {
+                    pattern(xml, r".*\$.*");
+                });
+                refer(xml, "anything");
+            });
+            for described in plugins {
+                xml.element("group", &[], |xml| plugin(xml, described));
+            }
+        });
+    });
+}
+
+fn plugin(xml: &mut Xml, described: &Described<'_>) {
+    let names = &described.plugin.names;
+    xml.element("attribute", &[("name", "type")], |xml| {
+        xml.element("choice", &[], |xml| {
+            for name in names {
+                xml.text("value", &[], name);
+            }
+        });
+    });
+    let mut parameters = of_ignored(described.class, names);
+    for (name, heard) in &described.rows {
+        if !name.starts_with('<') {
+            (parameters.entry(tags_of(&heard.question.kind)).or_default()).insert(name.clone());
+        }
+    }
+    any_number_of(xml, |xml| {
+        refer(xml, "language");
+        slots(xml, &parameters);
+        for (_, tag) in TAGS {
+            if let Tag::Object(class) = tag
+                && described.rows.contains_key(&format!("<{}>", class.name()))
+            {
+                objects(xml, class, None);
+            }
+        }
+    });
+}
