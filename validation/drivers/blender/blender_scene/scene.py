@@ -1,0 +1,84 @@
+"""A scene as a whole.
+
+Blender shows what a render would see (modifiers at the levels of renders, objects that are not hidden in renders) to engines
+only, so the export is one: it "renders" by writing files.
+"""
+
+from pathlib import Path
+
+import bpy
+from mathutils import Vector
+
+from . import camera, elements, lights, world
+from .export import Export
+from .meshes import SURFACES, Meshes
+
+UNREAD = {"VOLUME": "volumes", "POINTCLOUD": "point clouds", "GREASEPENCIL": "strokes", "LIGHT_PROBE": "light probes"}
+
+
+class Engine(bpy.types.RenderEngine):
+    """The engine that writes what it should render; `folder` says where to, `result` what became of it."""
+
+    bl_idname, bl_label = "ETALON_EXPORT", "Export for Etalon"
+    folder, result = None, None
+
+    def render(self, depsgraph):
+        """Writes the scene. Blender swallows what is raised here."""
+        try:
+            Engine.result = write(Path(Engine.folder), depsgraph)
+        except Exception as fault:
+            Engine.result = fault
+
+
+def extent(depsgraph):
+    """The middle of all meshes, and how far they reach from it."""
+    corners = [instance.matrix_world @ Vector(corner)
+               for instance in depsgraph.object_instances if instance.object.type in SURFACES
+               for corner in instance.object.bound_box]
+    if not corners:
+        return Vector(), 1.0
+    least, most = (Vector(pick(corner[axis] for corner in corners) for axis in range(3)) for pick in (min, max))
+    return (least + most) / 2, max((most - least).length / 2, 1e-3)
+
+
+def write(folder, depsgraph):
+    """Writes all files; returns what was left out or comes out otherwise."""
+    export = Export(folder, depsgraph.scene)
+    eye = depsgraph.scene.camera
+    if eye is None:
+        raise ValueError("the scene has no camera")
+    bounds, meshes, lamps = extent(depsgraph), Meshes(export), []
+    for instance in depsgraph.object_instances:
+        thing = instance.object
+        if not instance.show_self:
+            continue
+        if thing.type in SURFACES:
+            meshes.add(instance)
+        elif thing.type == "LIGHT":
+            lamps.append(lights.element(export, thing, instance.matrix_world.copy(), bounds))
+        elif thing.type in UNREAD:
+            export.note(f"object {thing.name}", f"{UNREAD[thing.type]} are left out")
+        if instance.show_particles and any(one.settings.type == "HAIR" for one in thing.particle_systems):
+            export.note(f"object {thing.name}", "hair of particles is left out")
+    parts = [camera.integrator(export), camera.element(export, eye, eye.matrix_world), world.element(export)]
+    scene = elements.tree.Element("scene", {"version": "3.0.0"})
+    scene.extend(part for part in [*parts, *lamps, *meshes.elements()] if part is not None)
+    elements.write(scene, folder / "scene.xml")
+    return export.notes
+
+
+def run(folder):
+    """Exports the open scene into a folder, and returns the notes."""
+    render = bpy.context.scene.render
+    before = render.engine
+    bpy.utils.register_class(Engine)
+    try:
+        Engine.folder, Engine.result = folder, None
+        render.engine = Engine.bl_idname
+        bpy.ops.render.render()
+    finally:
+        render.engine = before
+        bpy.utils.unregister_class(Engine)
+    if isinstance(Engine.result, Exception):
+        raise Engine.result
+    return Engine.result

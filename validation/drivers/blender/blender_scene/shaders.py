@@ -1,0 +1,227 @@
+"""Shader nodes as BSDFs.
+
+Cycles' facets are GGX, α = roughness², and hide each other by their height (Heitz 2014): `masking` `correlated`. Its "Multiscatter
+GGX" also gives back the light that hits several facets, which no plugin here does.
+"""
+
+from . import principled, surface
+from .elements import parameter, plugin, string
+from .inputs import output
+from .surface import Surface
+from .textures import Textures, as_kind, is_constant, product
+
+SMOOTH = 0.01  # the roughness below which Etalon's surface is a perfect mirror or pane; α is 0.0001 there
+
+
+def facets(kind, smooth, rough, *parts):
+    """A BSDF of GGX facets of this roughness, or the smooth one of the same name."""
+    if is_constant(rough) and rough < SMOOTH:
+        return plugin("bsdf", smooth, *parts)
+    alpha = rough * rough if is_constant(rough) else product(rough, rough_again(rough), "number")
+    return plugin("bsdf", kind, string("distribution", "ggx"), string("masking", "correlated"), parameter("alpha", alpha), *parts)
+
+
+def rough_again(texture):
+    """A second element of the same texture, so that it can be multiplied with itself."""
+    import copy
+
+    return copy.deepcopy(texture)
+
+
+def both_sides(*bsdf):
+    """An opaque BSDF, for both sides of the surface."""
+    return plugin("bsdf", "twosided", plugin("bsdf", *bsdf))
+
+
+def glass(textures, rough, ior, reflected, transmitted):
+    """Clear or frosted glass of constant index."""
+    parts = [parameter("int_ior", ior), parameter("ext_ior", 1.0)]
+    parts += [parameter(name, colour) for name, colour in
+              (("specular_reflectance", reflected), ("specular_transmittance", transmitted)) if colour != (1.0, 1.0, 1.0)]
+    return facets("roughdielectric", "dielectric", rough, *parts)
+
+
+class Shaders(Textures):
+    """The shaders of one material."""
+
+    def surface(self, field):
+        """What an input of the kind shader is fed."""
+        node = field.source()
+        if node is None:
+            return Surface()
+        make = getattr(self, f"shader_{node.kind}", None)
+        if make is None or node.node.mute:
+            colour = (0.8, 0.8, 0.8)
+            if "Color" in node:
+                colour = self.value(node["Color"], "colour")
+            self.note(node, f"the shader {node.node.bl_label} is not read; a diffuse one of its colour stands in")
+            return Surface(both_sides("diffuse", parameter("reflectance", colour)))
+        return make(node)
+
+    def number(self, node, name):
+        """A value of the kind number."""
+        return self.value(node[name], "number")
+
+    def colour(self, node, name="Color"):
+        """A value of the kind colour; no surface reflects more than it receives."""
+        value = self.value(node[name], "colour")
+        return tuple(min(max(part, 0.0), 1.0) for part in value) if is_constant(value) else value
+
+    def constant(self, node, name, kind="number"):
+        """A value that must not vary over the surface."""
+        value = self.value(node[name], kind)
+        if is_constant(value):
+            return value
+        self.note(node, f"{name} cannot vary; its own value is used")
+        return as_kind(node[name].constant(), kind)
+
+    def shader_BsdfPrincipled(self, node):
+        """Blender's most used one."""
+        return principled.surface(self, node)
+
+    def shader_BsdfDiffuse(self, node):
+        """Lambert, or Oren and Nayar if it is rough."""
+        colour, rough = parameter("reflectance", self.colour(node)), self.number(node, "Roughness")
+        if rough == 0.0:
+            bsdf = both_sides("diffuse", colour)
+        else:
+            bsdf = both_sides("roughdiffuse", colour, parameter("alpha", rough), string("model", "eon"))
+        return Surface(self.tilted(node, bsdf))
+
+    def shader_BsdfAnisotropic(self, node):
+        """Glossy: a mirror without Fresnel's equations."""
+        if node["Anisotropy"].source() or node["Anisotropy"].constant():
+            self.note(node, "anisotropy is left out")
+        colour = parameter("specular_reflectance", self.colour(node))
+        bsdf = facets("roughconductor", "conductor", self.number(node, "Roughness"), string("material", "none"), colour)
+        return Surface(self.tilted(node, plugin("bsdf", "twosided", bsdf)))
+
+    shader_BsdfGlossy = shader_BsdfAnisotropic
+
+    def shader_BsdfMetallic(self, node):
+        """Metal by n and k, or by its colour."""
+        rough = self.number(node, "Roughness")
+        if node.node.fresnel_type == "PHYSICAL_CONDUCTOR":
+            parts = [parameter("eta", self.constant(node, "IOR", "colour")), parameter("k", self.constant(node, "Extinction", "colour"))]
+            bsdf = facets("roughconductor", "conductor", rough, *parts)
+        else:
+            bsdf = principled.metal(self.colour(node, "Base Color"), rough)
+            if node["Edge Tint"].source() or node["Edge Tint"].constant() != (1.0, 1.0, 1.0):
+                self.note(node, "the tint of the edge is left out")
+        return Surface(self.tilted(node, plugin("bsdf", "twosided", bsdf)))
+
+    def shader_BsdfGlass(self, node):
+        """Glass; its colour multiplies what is reflected and what is transmitted."""
+        colour = self.colour(node)
+        bsdf = glass(self, self.number(node, "Roughness"), self.constant(node, "IOR"), colour, again(colour))
+        return Surface(self.tilted(node, bsdf))
+
+    def shader_BsdfRefraction(self, node):
+        """Glass that reflects nothing."""
+        self.note(node, "Refraction loses what Fresnel's equations reflect")
+        bsdf = glass(self, self.number(node, "Roughness"), self.constant(node, "IOR"), (0.0,) * 3, self.colour(node))
+        return Surface(self.tilted(node, bsdf))
+
+    def shader_BsdfTranslucent(self, node):
+        """A matte sheet that light comes through."""
+        return Surface(self.tilted(node, plugin("bsdf", "difftrans", parameter("transmittance", self.colour(node)))))
+
+    def shader_BsdfTransparent(self, node):
+        """A hole, or a coloured filter: a pane that reflects nothing as its index is that of the air."""
+        colour = self.colour(node)
+        if colour == (1.0, 1.0, 1.0):
+            return Surface(None, 1.0)
+        if is_constant(colour) and len(set(colour)) == 1:
+            return Surface(None, colour[0])
+        parts = [parameter("int_ior", 1.0), parameter("ext_ior", 1.0), parameter("specular_transmittance", colour)]
+        return Surface(plugin("bsdf", "thindielectric", *parts))
+
+    def shader_Holdout(self, node):
+        """A black hole in the picture."""
+        self.note(node, "Holdout is black, and not a hole in alpha")
+        return Surface()
+
+    def shader_Emission(self, node):
+        """A surface that shines; its strength is radiance."""
+        strength = self.number(node, "Strength")
+        return Surface(None, 0.0, product(self.value(node["Color"], "colour"), strength, "colour"))
+
+    shader_Background = shader_Emission  # on a surface it does the same
+
+    def shader_MixShader(self, node):
+        """Two shaders by a share."""
+        share = self.value(node[0], "number")
+        return surface.mix(self.surface(node[1]), self.surface(node[2]), share, lambda what: self.note(node, what))
+
+    def shader_AddShader(self, node):
+        """Two shaders at once."""
+        return surface.add(self.surface(node[0]), self.surface(node[1]), lambda what: self.note(node, what))
+
+    def tilted(self, node, bsdf):
+        """A BSDF with the normals of a map or of heights, if a node asks for them."""
+        source = node["Normal"].source() if "Normal" in node else None
+        if source is None:
+            return bsdf
+        if source.kind == "NormalMap":
+            return self.normal_map(source, bsdf)
+        if source.kind == "Bump":
+            return self.bump(source, bsdf)
+        self.note(source, "these normals are not read; the surface keeps its own")
+        return bsdf
+
+    def normal_map(self, node, bsdf):
+        """Normals of a picture in the frame of the texture coordinates; strength s moves them from (0, 0, 1) by s."""
+        picture = node["Color"].source()
+        if node.node.space != "TANGENT" or picture is None or picture.kind != "TexImage":
+            self.note(node, "only an image in tangent space is read as a normal map; the surface keeps its normals")
+            return bsdf
+        normals, strength = self.bitmap(picture, "raw"), self.constant(node, "Strength")
+        if is_constant(normals):
+            return bsdf
+        if strength != 1.0:
+            even = plugin("texture", "rawconstant")
+            even.append(vector("value", (0.5, 0.5, 1.0)))
+            normals = plugin("texture", "mix", parameter("a", even), parameter("b", normals), parameter("weight", strength))
+        return plugin("bsdf", "normalmap", parameter("normalmap", normals), bsdf)
+
+    def bump(self, node, bsdf):
+        """Normals of heights."""
+        heights = self.value(node["Height"], "number")
+        if is_constant(heights):
+            return bsdf
+        if node["Normal"].source():
+            self.note(node, "normals below a bump are left out")
+        scale = self.constant(node, "Strength") * self.constant(node, "Distance") * (-1 if node.node.invert else 1)
+        heights.set("name", "heights")
+        return plugin("bsdf", "bumpmap", heights, parameter("scale", scale), bsdf)
+
+
+def again(value):
+    """A value that can be used a second time."""
+    return value if is_constant(value) else rough_again(value)
+
+
+def vector(name, value):
+    """Three numbers that are no colour."""
+    from .elements import numbers, simple
+
+    return simple("vector", name, numbers(value))
+
+
+def material(export, data):
+    """The surface of a material of Blender (or of none) and the textures that it uses."""
+    return export.once(("material", data.name if data else None), lambda: make_material(export, data))
+
+
+def make_material(export, data):
+    """Reads it."""
+    shaders = Shaders(export, f"material {data.name}" if data else "no material")
+    if data is None or not data.node_tree:
+        colour = tuple(data.diffuse_color)[:3] if data else (0.8, 0.8, 0.8)
+        return Surface(both_sides("diffuse", parameter("reflectance", colour))), shaders
+    end = output(data.node_tree, "Surface")
+    made = shaders.surface(end) if end else Surface()
+    for part in ("Volume", "Displacement"):
+        if end and output(data.node_tree, part).source():
+            export.note(shaders.material, f"{part.lower()} is left out")
+    return made, shaders
