@@ -26,6 +26,8 @@ def film(export):
     scene, render = export.scene, export.scene.render
     if render.use_border:
         export.note("scene", "the whole picture is rendered, not the part in its border")
+    if (render.pixel_aspect_x, render.pixel_aspect_y) != (1.0, 1.0):
+        export.note("scene", "pixels are square here")
     size = [int(side * render.resolution_percentage / 100) for side in (render.resolution_x, render.resolution_y)]
     kind = FILTERS[scene.cycles.pixel_filter_type]
     width = scene.cycles.filter_width
@@ -57,8 +59,8 @@ def element(export, thing, matrix):
         raise ValueError(f"camera {thing.name}: panoramas are not exported; accepted are perspective and orthographic cameras")
     parts += [transform("to_world", to_world), parameter("fov", math.degrees(2 * math.atan(wide / 2)))]
     if any(middle):
-        parts.append(parameter("principal_point_offset_x", -middle[0] / wide))
-        parts.append(parameter("principal_point_offset_y", middle[1] / high))
+        parts.append(parameter("principal_point_offset_x", middle[0] / wide))
+        parts.append(parameter("principal_point_offset_y", -middle[1] / high))
     if not data.dof.use_dof:
         return plugin("sensor", "perspective", *parts)
     if data.dof.aperture_blades or data.dof.aperture_ratio != 1.0:
@@ -77,5 +79,5 @@ def focus(data, to_world):
 
 def integrator(export):
     """Paths of as many segments as Cycles has bounces, and one more."""
-    hidden = boolean("hide_emitters", True) if export.scene.render.film_transparent else None
-    return plugin("integrator", "path", integer("max_depth", export.scene.cycles.max_bounces + 1), hidden)
+    hides = boolean("hide_emitters", True) if export.hides_lamps or export.scene.render.film_transparent else None
+    return plugin("integrator", "path", integer("max_depth", export.scene.cycles.max_bounces + 1), hides)

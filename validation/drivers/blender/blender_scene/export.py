@@ -12,6 +12,7 @@ class Export:
         self.notes = []
         self.written = {}  # files and materials, by what they are of
         self.names = set()
+        self.hides_lamps = False  # whether the camera sees through all that shines
         for part in ("meshes", "textures"):
             (folder / part).mkdir(parents=True, exist_ok=True)
 

@@ -4,22 +4,25 @@ A lamp of the power P (W) gives, in each of the three channels, what Cycles' has
 
 | lamp | |
 |---|---|
-| point, spot | the intensity P/(4π²) · π = P/4π, whatever the cone of a spot; of radius r, a sphere of the radiance P/(4π² r²) |
+| point, spot | the intensity P/4π, whatever the cone of a spot; a point of radius r is a sphere of the radiance P/(4π² r²) |
 | area of A m² | the radiance P/(π A) to one side |
-| sun | its strength is irradiance; of an angle α, a disk far away of the radiance E/(π sin²(α/2)) |
+| sun | its strength is irradiance E; of an angle α, a disk far away of the radiance E/(π sin²(α/2)) |
 
-Without `normalize`, P is that of 1 m² (or, of a sun, E that of π sr): the division by the size falls away. Lamps
-cast no shadows, so their shapes are of the material `null`.
+Without `normalize` the division by the size falls away: a sphere has the radiance P/π, an area P/π, a disk of the sun E; what has
+no radius counts as one of 1 m. Lamps cast no shadows, so their shapes are of the material `null`; and Blender's cameras do not
+see them.
 """
 
 import math
 
+from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Matrix
 
 from .elements import parameter, plugin, string, transform
 from .inputs import Node
 
 FAR = 1000.0  # how many sizes of the scene a sun of some extent is away
+MARGIN = 0.1  # how far beyond the picture a lamp's middle still counts as in it, in pictures
 
 
 def strength(export, light, name):
@@ -55,14 +58,20 @@ def shape(kind, matrix, radiance, *parts):
     )
 
 
-def point(export, light, matrix, colour):
+def intensity(light, colour):
+    """That of a point or a spot."""
+    radius = light.shadow_soft_size
+    return values(colour, 4 * math.pi if light.normalize else math.pi if radius == 0.0 else 1.0 / radius**2)
+
+
+def point(light, matrix, colour, sharp):
     """A point, or a sphere."""
     radius = light.shadow_soft_size
-    if radius == 0.0:
-        return plugin("emitter", "point", transform("to_world", Matrix.Translation(matrix.translation)), parameter("intensity", values(colour, 4 * math.pi)))
-    area = 4 * math.pi * radius**2 if light.normalize else 4.0
-    place = Matrix.Translation(matrix.translation) @ Matrix.Scale(radius, 4)
-    return shape("sphere", place, values(colour, math.pi * area))
+    place = Matrix.Translation(matrix.translation)
+    if sharp or radius == 0.0:
+        return plugin("emitter", "point", transform("to_world", place), parameter("intensity", intensity(light, colour)))
+    divisor = math.pi * (4 * math.pi * radius**2 if light.normalize else 1.0)
+    return shape("sphere", place @ Matrix.Scale(radius, 4), values(colour, divisor))
 
 
 def spot(export, light, matrix, colour):
@@ -77,7 +86,7 @@ def spot(export, light, matrix, colour):
         "emitter",
         "spot",
         transform("to_world", turned(matrix)),
-        parameter("intensity", values(colour, 4 * math.pi)),
+        parameter("intensity", intensity(light, colour)),
         parameter("cutoff_angle", math.degrees(half)),
         parameter("beam_width", math.degrees(even)),
         string("falloff", "smooth_in_cosine"),
@@ -106,32 +115,49 @@ def area(export, light, matrix, colour):
     return shape("disk" if round_one else "rectangle", place, radiance)
 
 
-def sun(export, light, matrix, colour, centre, size):
+def sun(light, matrix, colour, bounds, sharp):
     """Parallel light, or a disk far away."""
-    if light.angle == 0.0:
-        return plugin("emitter", "directional", transform("to_world", turned(matrix)), parameter("irradiance", tuple(colour)))
-    half, away = min(light.angle / 2, math.radians(89.0)), FAR * size
-    solid = math.pi * math.sin(half) ** 2  # the disk's solid angle, by the cosine
-    direction = turned(matrix).to_3x3()
+    half = min(light.angle / 2, math.radians(89.0))
+    solid = math.pi * math.sin(half) ** 2 if light.normalize and half else 1.0  # the disk's solid angle, by the cosine
+    if sharp or half == 0.0:
+        irradiance = values(colour, 1.0 if light.normalize or not half else 1.0 / (math.pi * math.sin(half) ** 2))
+        return plugin("emitter", "directional", transform("to_world", turned(matrix)), parameter("irradiance", irradiance))
+    centre, size = bounds
+    direction, away = turned(matrix).to_3x3(), FAR * size
     place = Matrix.Translation(centre - away * direction.col[2]) @ direction.to_4x4() @ Matrix.Scale(away * math.tan(half), 4)
-    return shape("disk", place, values(colour, solid if light.normalize else 1.0))
+    return shape("disk", place, values(colour, solid))
+
+
+def is_seen(export, thing, matrix):
+    """Whether the camera would see what shines, where Blender hides it; a lamp counts by its middle."""
+    light, eye = thing.data, export.scene.camera
+    if thing.visible_camera or light.type == "SPOT" or export.hides_lamps:
+        return False
+    middle = matrix.translation
+    if light.type == "SUN":
+        middle = eye.matrix_world.translation + matrix.col[2].to_3d().normalized() * eye.data.clip_end
+    elif light.type == "AREA" and matrix.col[2].to_3d().dot(middle - eye.matrix_world.translation) >= 0.0:
+        return False  # from behind
+    across, up, depth = world_to_camera_view(export.scene, eye, middle)
+    return depth > 0.0 and -MARGIN < across < 1.0 + MARGIN and -MARGIN < up < 1.0 + MARGIN
 
 
 def element(export, thing, matrix, bounds):
     """A lamp at a place; None if it gives no light."""
-    light = thing.data
+    light, name = thing.data, f"light {thing.name}"
     colour = strength(export, light, thing.name)
     if not any(colour):
         return None
     if min(colour) < 0.0:
-        export.note(f"light {thing.name}", "what takes light away is left out")
+        export.note(name, "what takes light away is left out")
         return None
-    match light.type:
-        case "POINT":
-            return point(export, light, matrix, colour)
-        case "SPOT":
-            return spot(export, light, matrix, colour)
-        case "AREA":
-            return area(export, light, matrix, colour)
-        case "SUN":
-            return sun(export, light, matrix, colour, *bounds)
+    seen = is_seen(export, thing, matrix)
+    if light.type == "SPOT":
+        return spot(export, light, matrix, colour)
+    if light.type == "AREA":
+        if seen:
+            export.note(name, "it is in the picture, where Blender does not show it")
+        return area(export, light, matrix, colour)
+    if seen and (light.angle if light.type == "SUN" else light.shadow_soft_size):
+        export.note(name, "it would be in the picture, where Blender does not show it: it has no extent here, and sharp shadows")
+    return sun(light, matrix, colour, bounds, seen) if light.type == "SUN" else point(light, matrix, colour, seen)

@@ -77,6 +77,7 @@ class Meshes:
     def __init__(self, export):
         self.export = export
         self.parts, self.places = {}, {}
+        self.shine = False  # whether any of them does
 
     def add(self, instance):
         """Takes a mesh in one of its places."""
@@ -100,6 +101,7 @@ class Meshes:
             for data, _ in parts:
                 self.material(data, used)
             shining = any(surface.emitter(shaders.material(self.export, data)[0]) is not None for data, _ in parts)
+            self.shine |= shining
             if len(places) == 1 or shining:  # what shines cannot be an instance
                 for _, matrix in places:
                     shapes += [self.shape(data, path, used, matrix) for data, path in parts]

@@ -55,14 +55,17 @@ def write(folder, depsgraph):
         if thing.type in SURFACES:
             meshes.add(instance)
         elif thing.type == "LIGHT":
-            lamps.append(lights.element(export, thing, instance.matrix_world.copy(), bounds))
+            lamps.append((thing, instance.matrix_world.copy()))
         elif thing.type in UNREAD:
             export.note(f"object {thing.name}", f"{UNREAD[thing.type]} are left out")
         if instance.show_particles and any(one.settings.type == "HAIR" for one in thing.particle_systems):
             export.note(f"object {thing.name}", "hair of particles is left out")
-    parts = [camera.integrator(export), camera.element(export, eye, eye.matrix_world), world.element(export)]
+    sky, bodies = world.element(export), meshes.elements()
+    export.hides_lamps = sky is None and not meshes.shine and not any(lamp.visible_camera for lamp, _ in lamps)
+    shining = [lights.element(export, lamp, matrix, bounds) for lamp, matrix in lamps]
+    parts = [camera.integrator(export), camera.element(export, eye, eye.matrix_world), sky, *shining, *bodies]
     scene = elements.tree.Element("scene", {"version": "3.0.0"})
-    scene.extend(part for part in [*parts, *lamps, *meshes.elements()] if part is not None)
+    scene.extend(part for part in parts if part is not None)
     elements.write(scene, folder / "scene.xml")
     return export.notes
 
