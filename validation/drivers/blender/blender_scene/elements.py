@@ -53,6 +53,18 @@ def parameter(name, value):
     return simple("float", name, text(value))
 
 
+def vector(name, values):
+    """Three numbers that are no colour."""
+    return simple("vector", name, numbers(values))
+
+
+def radiance(value):
+    """A parameter of what shines: a texture is lit by D65, as colours are of themselves."""
+    if isinstance(value, tree.Element):
+        value = plugin("spectrum", "d65", parameter("lit", value))
+    return parameter("radiance", value)
+
+
 def transform(name, rows):
     """A transform by the 16 numbers of its matrix."""
     new = tree.Element("transform", {"name": name})

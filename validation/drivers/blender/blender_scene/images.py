@@ -1,7 +1,7 @@
-"""Images as files.
+"""Images of Blender as files.
 
-A picture of bytes goes out as it is; of floats, or as one channel, as numbers: PFM, or PGM of 16 bits. Blender's pixels are
-rows from below, red, green, blue and alpha; those of bytes are encoded as their file says, those of floats are linear.
+A picture of bytes goes out as its own file, or as PNG; one of floats as PFM; one channel as PGM of 16 bits, or as PFM. Blender's
+pixels are rows from below, red, green, blue and alpha; those of bytes are encoded as their file says, those of floats are linear.
 """
 
 import shutil
@@ -9,6 +9,8 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+
+from . import pictures
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear Rec. 709
 
@@ -52,32 +54,14 @@ def colours(export, image):
 
 
 def write_colours(export, image):
-    """Writes it: floats as PFM, bytes as their own file if there is one that Etalon reads, else as PNG."""
-    name = export.name(Path(image.name).stem)
-    if image.is_float:
-        return write_floats(export, name, pixels(image)[:, :, :3])
+    """Writes it."""
     source = Path(bpy.path.abspath(image.filepath, library=image.library)) if image.filepath else None
-    keeps = image.source == "FILE" and not image.packed_file and not image.is_dirty
-    if keeps and source and source.is_file() and source.suffix.lower() in (".png", ".jpg", ".jpeg"):
-        path = f"textures/{name}{source.suffix.lower()}"
+    kept = image.source == "FILE" and not image.packed_file and not image.is_dirty and not image.is_float
+    if kept and source and source.is_file() and source.suffix.lower() in (".png", ".jpg", ".jpeg"):
+        path = f"textures/{export.name(source.stem)}{source.suffix.lower()}"
         shutil.copyfile(source, export.folder / path)
         return path
-    path = f"textures/{name}.png"
-    copy = image.copy()  # so that the image of the scene keeps its format and file
-    copy.file_format = "PNG"
-    copy.pixels.foreach_set(pixels(image).ravel())
-    copy.save(filepath=str(export.folder / path))
-    bpy.data.images.remove(copy)
-    return path
-
-
-def write_floats(export, name, values):
-    """Writes rows from below as a portable float map, grey or in colour."""
-    path = f"textures/{name}.pfm"
-    kind = "Pf" if values.ndim == 2 else "PF"
-    header = f"{kind}\n{values.shape[1]} {values.shape[0]}\n-1.0\n"  # -1 says little-endian
-    (export.folder / path).write_bytes(header.encode() + values.astype("<f4").tobytes())
-    return path
+    return write(export, image, Path(image.name).stem, pixels(image)[:, :, :3])
 
 
 def channel(export, image, which):
@@ -91,11 +75,16 @@ def write_channel(export, image, which):
     if not image.is_float and not is_numbers(image):
         values[:, :, :3] = decoded(values[:, :, :3])
     grey = values[:, :, :3] @ LUMINANCE if which == "luminance" else values[:, :, which]
-    name = export.name(f"{Path(image.name).stem}-{which if which == 'luminance' else 'rgba'[which]}")
+    return write(export, image, f"{Path(image.name).stem}-{which if which == 'luminance' else 'rgba'[which]}", grey)
+
+
+def write(export, image, name, values):
+    """Writes values in the format that keeps them."""
     if image.is_float:
-        return write_floats(export, name, grey)
-    path = f"textures/{name}.pgm"
-    whole = np.round(np.clip(grey, 0.0, 1.0)[::-1] * 65535).astype(">u2")
-    header = f"P5\n{whole.shape[1]} {whole.shape[0]}\n65535\n"
-    (export.folder / path).write_bytes(header.encode() + whole.tobytes())
+        path, contents = f"textures/{export.name(name)}.pfm", pictures.pfm(values)
+    elif values.ndim == 2:
+        path, contents = f"textures/{export.name(name)}.pgm", pictures.pgm(values)
+    else:
+        path, contents = f"textures/{export.name(name)}.png", pictures.png(values)
+    (export.folder / path).write_bytes(contents)
     return path

@@ -1,5 +1,7 @@
 """Meshes: what Blender's modifiers make of an object, as one PLY file for each of its materials."""
 
+import copy
+
 import numpy as np
 
 from . import ply, shaders, surface
@@ -45,7 +47,7 @@ def colours(export, mesh, names, vertices, loops):
             values = np.zeros((len(loops), 3), dtype=np.float32)
         else:
             values = read(found.data, "color", np.float32, 4)[vertices if found.domain == "POINT" else loops, :3]
-        result[f"vertex_{attribute(name)}"] = values
+        result[attribute(name)] = values
     return result
 
 
@@ -130,5 +132,5 @@ class Meshes:
             string("filename", path),
             None if matrix is None else transform("to_world", matrix),
             reference(used[data.name_full if data else None][0]),
-            surface.emitter(look),
+            copy.deepcopy(surface.emitter(look)),
         )

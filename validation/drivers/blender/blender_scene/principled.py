@@ -61,7 +61,7 @@ def clear(shaders, node, colour, rough):
     else:
         root = colour
         shaders.note(node, "a texture of what is transmitted colours it once at each interface, and not by its root")
-    return glass(shaders, rough, shaders.constant(node, "IOR"), (1.0, 1.0, 1.0), root)
+    return glass(rough, shaders.constant(node, "IOR"), (1.0, 1.0, 1.0), root)
 
 
 def surface(shaders, node):

@@ -4,8 +4,10 @@ Cycles' facets are GGX, α = roughness², and hide each other by their height (H
 GGX" also gives back the light that hits several facets, which no plugin here does.
 """
 
+import copy
+
 from . import principled, surface
-from .elements import parameter, plugin, string
+from .elements import boolean, parameter, plugin, string, vector
 from .inputs import output
 from .surface import Surface
 from .textures import Textures, as_kind, is_constant, product
@@ -17,15 +19,13 @@ def facets(kind, smooth, rough, *parts):
     """A BSDF of GGX facets of this roughness, or the smooth one of the same name."""
     if is_constant(rough) and rough < SMOOTH:
         return plugin("bsdf", smooth, *parts)
-    alpha = rough * rough if is_constant(rough) else product(rough, rough_again(rough), "number")
+    alpha = rough * rough if is_constant(rough) else product(rough, again(rough), "number")
     return plugin("bsdf", kind, string("distribution", "ggx"), string("masking", "correlated"), parameter("alpha", alpha), *parts)
 
 
-def rough_again(texture):
-    """A second element of the same texture, so that it can be multiplied with itself."""
-    import copy
-
-    return copy.deepcopy(texture)
+def again(value):
+    """A value that can be used a second time: an element has one place."""
+    return copy.deepcopy(value)
 
 
 def both_sides(*bsdf):
@@ -33,7 +33,7 @@ def both_sides(*bsdf):
     return plugin("bsdf", "twosided", plugin("bsdf", *bsdf))
 
 
-def glass(textures, rough, ior, reflected, transmitted):
+def glass(rough, ior, reflected, transmitted):
     """Clear or frosted glass of constant index."""
     parts = [parameter("int_ior", ior), parameter("ext_ior", 1.0)]
     parts += [parameter(name, colour) for name, colour in
@@ -113,13 +113,13 @@ class Shaders(Textures):
     def shader_BsdfGlass(self, node):
         """Glass; its colour multiplies what is reflected and what is transmitted."""
         colour = self.colour(node)
-        bsdf = glass(self, self.number(node, "Roughness"), self.constant(node, "IOR"), colour, again(colour))
+        bsdf = glass(self.number(node, "Roughness"), self.constant(node, "IOR"), colour, again(colour))
         return Surface(self.tilted(node, bsdf))
 
     def shader_BsdfRefraction(self, node):
         """Glass that reflects nothing."""
         self.note(node, "Refraction loses what Fresnel's equations reflect")
-        bsdf = glass(self, self.number(node, "Roughness"), self.constant(node, "IOR"), (0.0,) * 3, self.colour(node))
+        bsdf = glass(self.number(node, "Roughness"), self.constant(node, "IOR"), (0.0,) * 3, self.colour(node))
         return Surface(self.tilted(node, bsdf))
 
     def shader_BsdfTranslucent(self, node):
@@ -179,10 +179,8 @@ class Shaders(Textures):
         if is_constant(normals):
             return bsdf
         if strength != 1.0:
-            even = plugin("texture", "rawconstant")
-            even.append(vector("value", (0.5, 0.5, 1.0)))
-            normals = plugin("texture", "mix", parameter("a", even), parameter("b", normals), parameter("weight", strength))
-        return plugin("bsdf", "normalmap", parameter("normalmap", normals), bsdf)
+            normals = strengthened(normals, max(strength, 0.0))
+        return plugin("bsdf", "normalmap", parameter("normalmap", normals), boolean("flip_invalid_normals", False), bsdf)
 
     def bump(self, node, bsdf):
         """Normals of heights."""
@@ -193,19 +191,19 @@ class Shaders(Textures):
             self.note(node, "normals below a bump are left out")
         scale = self.constant(node, "Strength") * self.constant(node, "Distance") * (-1 if node.node.invert else 1)
         heights.set("name", "heights")
-        return plugin("bsdf", "bumpmap", heights, parameter("scale", scale), bsdf)
+        return plugin("bsdf", "bumpmap", heights, parameter("scale", scale), boolean("flip_invalid_normals", False), bsdf)
 
 
-def again(value):
-    """A value that can be used a second time."""
-    return value if is_constant(value) else rough_again(value)
-
-
-def vector(name, value):
-    """Three numbers that are no colour."""
-    from .elements import numbers, simple
-
-    return simple("vector", name, numbers(value))
+def strengthened(normals, strength):
+    """Normals of the colours c = (1 + n)/2 as those of (s x, s y, z), z moved toward 1 if s < 1; no colour may exceed 1, so what
+    is above 1 makes z smaller instead."""
+    if strength <= 1.0:
+        even = plugin("texture", "rawconstant", vector("value", (0.5, 0.5, 1.0)))
+        return plugin("texture", "mix", parameter("a", even), parameter("b", normals), parameter("weight", strength))
+    factor = plugin("texture", "rawconstant", vector("value", (1.0, 1.0, 1.0 / strength)))
+    rest = plugin("texture", "rawconstant", vector("value", (0.0, 0.0, 0.5 - 0.5 / strength)))
+    turned = plugin("texture", "multiply", parameter("a", normals), parameter("b", factor))
+    return plugin("texture", "add", parameter("a", turned), parameter("b", rest))
 
 
 def material(export, data):

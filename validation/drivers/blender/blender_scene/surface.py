@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from .elements import boolean, parameter, plugin
+from .elements import boolean, parameter, plugin, radiance
 from .textures import inverted, is_constant, mixed, product
 
 
@@ -32,10 +32,10 @@ def mix(a, b, share, note):
     if share in (0.0, 1.0):
         return (a, b)[int(share)]
     through = mixed(a.through, b.through, share, "number")
-    radiance = None
+    shines = None
     if a.radiance is not None or b.radiance is not None:
         dark = (0.0, 0.0, 0.0)
-        radiance = mixed(dark if a.radiance is None else a.radiance, dark if b.radiance is None else b.radiance, share, "colour")
+        shines = mixed(dark if a.radiance is None else a.radiance, dark if b.radiance is None else b.radiance, share, "colour")
     if a.through == 1.0 or b.through == 1.0:  # one of them is a hole
         scattering = b.scattering if a.through == 1.0 else a.scattering
     elif a.scattering is None and b.scattering is None:
@@ -45,7 +45,7 @@ def mix(a, b, share, note):
             note("a mix of shaders that let light through in part is approximate")
         parts = [black() if part.scattering is None else part.scattering for part in (a, b)]
         scattering = plugin("bsdf", "blendbsdf", parameter("weight", share), *parts)
-    return Surface(scattering, through, radiance)
+    return Surface(scattering, through, shines)
 
 
 def add(a, b, note):
@@ -58,21 +58,21 @@ def add(a, b, note):
     else:
         through = min(a.through + b.through, 1.0)
     lights = [part.radiance for part in (a, b) if part.radiance is not None]
-    radiance = lights[0] if lights else None
+    shines = lights[0] if lights else None
     if len(lights) == 2:
         if all(map(is_constant, lights)):
-            radiance = tuple(x + y for x, y in zip(*lights))
+            shines = tuple(x + y for x, y in zip(*lights))
         else:
-            radiance = plugin("texture", "add", parameter("a", lights[0]), parameter("b", lights[1]))
-    return Surface(a.scattering if a.scattering is not None else b.scattering, through, radiance)
+            shines = plugin("texture", "add", parameter("a", lights[0]), parameter("b", lights[1]))
+    return Surface(a.scattering if a.scattering is not None else b.scattering, through, shines)
 
 
 def with_alpha(surface, alpha):
     """A surface that is there in part; what is not there does not shine."""
     if alpha == 1.0:
         return surface
-    radiance = None if surface.radiance is None else product(surface.radiance, alpha, "colour")
-    return Surface(surface.scattering, inverted(alpha, "number"), radiance)
+    shines = None if surface.radiance is None else product(surface.radiance, alpha, "colour")
+    return Surface(surface.scattering, inverted(alpha, "number"), shines)
 
 
 def material(surface):
@@ -89,4 +89,4 @@ def emitter(surface):
     """What it emits; None if nothing."""
     if surface.radiance is None or surface.radiance == (0.0, 0.0, 0.0):
         return None
-    return plugin("emitter", "area", parameter("radiance", surface.radiance), boolean("twosided", True))
+    return plugin("emitter", "area", radiance(surface.radiance), boolean("twosided", True))

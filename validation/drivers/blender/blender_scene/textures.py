@@ -43,6 +43,8 @@ def product(a, b, kind):
 
 def mixed(a, b, share, kind):
     """a (1 − share) + b share."""
+    if is_constant(a) and is_constant(b) and a == b:
+        return a
     if is_constant(share):
         share = as_kind(share, "number")
         if share in (0.0, 1.0):
@@ -53,7 +55,9 @@ def mixed(a, b, share, kind):
 
 
 def inverted(value, kind):
-    """1 − a."""
+    """1 − a; of a texture, if it is of numbers."""
+    if is_constant(value):
+        return tuple(1.0 - part for part in value) if isinstance(value, tuple) else 1.0 - value
     return mixed(as_kind(1.0, kind), as_kind(0.0, kind), value, kind)
 
 
@@ -142,15 +146,18 @@ class Textures:
         name = node.node.layer_name
         if kind == "number" or node.output.name != "Color":
             return None
-        self.attributes.add(name)
-        return plugin("texture", "mesh_attribute", string("name", f"vertex_{attribute(name)}"))
+        return self.painted(name)
 
     def of_Attribute(self, node, kind):
         """The same, by the node for all kinds of attributes."""
         if kind == "number" or node.output.name != "Color" or node.node.attribute_type != "GEOMETRY":
             return None
-        self.attributes.add(node.node.attribute_name)
-        return plugin("texture", "mesh_attribute", string("name", f"vertex_{attribute(node.node.attribute_name)}"))
+        return self.painted(node.node.attribute_name)
+
+    def painted(self, name):
+        """The colours of the vertices of this name."""
+        self.attributes.add(name)
+        return plugin("texture", "mesh_attribute", string("name", f"vertex_{attribute(name)}_color"))
 
     def of_SeparateColor(self, node, kind):
         """A channel of an image."""
@@ -196,18 +203,17 @@ class Textures:
 
     def of_Invert(self, node, kind):
         """1 − a, by a factor."""
-        colour = self.value(node["Color"], kind)
-        return None if not is_constant(colour) else mixed(colour, inverted_constant(colour), self.value(node[0], "number"), kind)
-
-
-def inverted_constant(value):
-    """1 − a of a constant."""
-    return tuple(1.0 - part for part in value) if isinstance(value, tuple) else 1.0 - value
+        colour, share = self.value(node["Color"], kind), self.value(node[0], "number")
+        if share == 1.0:
+            return inverted(colour, kind) if kind == "number" or is_constant(colour) else None
+        if not is_constant(colour):
+            return None
+        return mixed(colour, inverted(colour, kind), share, kind)
 
 
 def attribute(name):
     """The name of an attribute in a file of meshes."""
-    return "".join(letter if letter.isalnum() else "_" for letter in name).lower()
+    return "painted_" + "".join(letter if letter.isascii() and letter.isalnum() else "_" for letter in name).lower()
 
 
 def mapping(node):
