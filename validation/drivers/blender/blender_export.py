@@ -1,16 +1,20 @@
 """Writes a scene of Blender as files that Etalon reads: OUT/scene.xml, OUT/meshes, OUT/textures.
 
     blender --background FILE.blend --python blender_export.py -- OUT
-    python blender_export.py FILE.blend OUT          # with the module `bpy` of PyPI
-    import blender_export; blender_export.export(out)    # of the scene that is open
+    python blender_export.py FILE.blend OUT              # with the module `bpy` of PyPI
+    import blender_export; blender_export.export(OUT)    # of the scene that is open
 
-docs/blender.md says what is understood. The parts stand in the folder `blender_scene` beside this file.
+docs/blender.md says what is understood. The parts stand in the folder `blender_scene` beside this file, which is a folder of its
+own so that Blender does not take the driver `cycles.py` for its add-on of that name.
 """
 
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+USAGE = """usage: blender --background FILE.blend --python blender_export.py -- OUT
+   or: python blender_export.py FILE.blend OUT"""
 
 
 def export(out):
@@ -20,18 +24,18 @@ def export(out):
     return scene.run(Path(out))
 
 
-def main():
-    """The command line, of Blender or of Python."""
-    import bpy
+def main(arguments):
+    """The command line, of Blender (whose file is open) or of Python."""
+    in_blender = "--" in arguments
+    rest = arguments[arguments.index("--") + 1 :] if in_blender else arguments[1:]
+    if len(rest) != (1 if in_blender else 2):
+        sys.exit(USAGE)
+    if not in_blender:
+        import bpy
 
-    arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
-    if not bpy.app.background or len(arguments) == 2:
-        bpy.ops.wm.open_mainfile(filepath=arguments.pop(0))
-    if len(arguments) != 1:
-        sys.exit("usage: blender --background FILE.blend --python blender_export.py -- OUT\n"
-                 "   or: python blender_export.py FILE.blend OUT")
-    export(arguments[0])
+        bpy.ops.wm.open_mainfile(filepath=rest[0])
+    export(rest[-1])
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv)

@@ -45,8 +45,6 @@ def write(folder, depsgraph):
     """Writes all files; returns what was left out or comes out otherwise."""
     export = Export(folder, depsgraph.scene)
     eye = depsgraph.scene.camera
-    if eye is None:
-        raise ValueError("the scene has no camera")
     bounds, meshes, lamps = extent(depsgraph), Meshes(export), []
     for instance in depsgraph.object_instances:
         thing = instance.object
@@ -72,6 +70,8 @@ def write(folder, depsgraph):
 
 def run(folder):
     """Exports the open scene into a folder, and returns the notes."""
+    if bpy.context.scene.camera is None:
+        raise ValueError("the scene has no camera")
     render = bpy.context.scene.render
     before = render.engine
     bpy.utils.register_class(Engine)
