@@ -10,7 +10,7 @@ from mathutils import Matrix
 
 from .elements import boolean, integer, parameter, plugin, string, transform
 
-FILTERS = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "gaussian"}
+DEVIATION = {"GAUSSIAN": 0.25, "BLACKMAN_HARRIS": 0.277}  # of Cycles' filters, in their widths; the second window is nearly a Gaussian
 
 
 def frame(export, data):
@@ -29,15 +29,13 @@ def film(export):
     if (render.pixel_aspect_x, render.pixel_aspect_y) != (1.0, 1.0):
         export.note("scene", "pixels are square here")
     size = [int(side * render.resolution_percentage / 100) for side in (render.resolution_x, render.resolution_y)]
-    kind = FILTERS[scene.cycles.pixel_filter_type]
-    width = scene.cycles.filter_width
-    parts = []
-    if kind == "gaussian":  # Cycles' Gaussian ends at three deviations of a quarter of its width each; its window is as wide
-        parts = [parameter("stddev", width / 4)]
-    elif width != 1.0:
-        parts = [parameter("radius", width / 2)]
+    kind, width = scene.cycles.pixel_filter_type, scene.cycles.filter_width
+    if kind == "BOX":
+        rfilter = plugin("rfilter", "box", parameter("radius", width / 2) if width != 1.0 else None)
+    else:
+        rfilter = plugin("rfilter", "gaussian", parameter("stddev", DEVIATION[kind] * width))
     shows = string("pixel_format", "rgba" if render.film_transparent else "rgb")
-    return plugin("film", "hdrfilm", integer("width", size[0]), integer("height", size[1]), shows, plugin("rfilter", kind, *parts))
+    return plugin("film", "hdrfilm", integer("width", size[0]), integer("height", size[1]), shows, rfilter)
 
 
 def element(export, thing, matrix):

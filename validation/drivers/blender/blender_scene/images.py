@@ -50,7 +50,7 @@ def check(export, image, where):
 
 def colours(export, image):
     """The file of a picture in colour, from the folder of the scene."""
-    return export.once(("colours", image.name), lambda: write_colours(export, image))
+    return export.once(("colours", image.name_full), lambda: write_colours(export, image))
 
 
 def write_colours(export, image):
@@ -66,7 +66,7 @@ def write_colours(export, image):
 
 def channel(export, image, which):
     """The file of one linear channel: 0 to 3 for red, green, blue and alpha, or "luminance"."""
-    return export.once(("channel", image.name, which), lambda: write_channel(export, image, which))
+    return export.once(("channel", image.name_full, which), lambda: write_channel(export, image, which))
 
 
 def write_channel(export, image, which):

@@ -146,8 +146,10 @@ def element(export, thing, matrix, bounds):
     """A lamp at a place; None if it gives no light."""
     light, name = thing.data, f"light {thing.name}"
     colour = strength(export, light, thing.name)
-    if not any(colour):
+    if not any(colour) or light.type == "AREA" and light.cycles.is_portal:  # a portal only guides the sky's light
         return None
+    if not light.use_shadow:
+        export.note(name, "all lamps cast shadows here")
     if min(colour) < 0.0:
         export.note(name, "what takes light away is left out")
         return None

@@ -8,7 +8,7 @@ from . import ply, shaders, surface
 from .elements import plugin, reference, string, transform
 from .textures import attribute
 
-SURFACES = ("MESH", "CURVE", "SURFACE", "META", "FONT", "CURVES")
+SURFACES = ("MESH", "CURVE", "SURFACE", "META", "FONT")
 
 
 def read(collection, name, kind, columns):

@@ -13,13 +13,15 @@ from . import camera, elements, lights, world
 from .export import Export
 from .meshes import SURFACES, Meshes
 
-UNREAD = {"VOLUME": "volumes", "POINTCLOUD": "point clouds", "GREASEPENCIL": "strokes", "LIGHT_PROBE": "light probes"}
+UNREAD = {"VOLUME": "volumes", "POINTCLOUD": "point clouds", "GREASEPENCIL": "strokes", "CURVES": "hair curves"}
+VISIBLE = ("camera", "diffuse", "glossy", "transmission", "shadow")  # to which rays an object can be invisible
+ALONE = dict(engine="ETALON_EXPORT", use_compositing=False, use_sequencer=False, use_single_layer=True)  # nothing else may run
 
 
 class Engine(bpy.types.RenderEngine):
     """The engine that writes what it should render; `folder` says where to, `result` what became of it."""
 
-    bl_idname, bl_label = "ETALON_EXPORT", "Export for Etalon"
+    bl_idname, bl_label = ALONE["engine"], "Export for Etalon"
     folder, result = None, None
 
     def render(self, depsgraph):
@@ -52,6 +54,8 @@ def write(folder, depsgraph):
             continue
         if thing.type in SURFACES:
             meshes.add(instance)
+            if thing.is_holdout or thing.is_shadow_catcher or not all(getattr(thing, f"visible_{ray}") for ray in VISIBLE):
+                export.note(f"object {thing.name}", "all rays see it here")
         elif thing.type == "LIGHT":
             lamps.append((thing, instance.matrix_world.copy()))
         elif thing.type in UNREAD:
@@ -60,6 +64,8 @@ def write(folder, depsgraph):
             export.note(f"object {thing.name}", "hair of particles is left out")
     sky, bodies = world.element(export), meshes.elements()
     export.hides_lamps = sky is None and not meshes.shine and not any(lamp.visible_camera for lamp, _ in lamps)
+    if depsgraph.scene.render.film_transparent and meshes.shine:
+        export.note("scene", "where its film is transparent, surfaces that shine are not seen by the camera either")
     shining = [lights.element(export, lamp, matrix, bounds) for lamp, matrix in lamps]
     parts = [camera.integrator(export), camera.element(export, eye, eye.matrix_world), sky, *shining, *bodies]
     scene = elements.tree.Element("scene", {"version": "3.0.0"})
@@ -73,14 +79,16 @@ def run(folder):
     if bpy.context.scene.camera is None:
         raise ValueError("the scene has no camera")
     render = bpy.context.scene.render
-    before = render.engine
+    before = {name: getattr(render, name) for name in ALONE}
     bpy.utils.register_class(Engine)
     try:
         Engine.folder, Engine.result = folder, None
-        render.engine = Engine.bl_idname
+        for name, value in ALONE.items():
+            setattr(render, name, value)
         bpy.ops.render.render()
     finally:
-        render.engine = before
+        for name, value in before.items():
+            setattr(render, name, value)
         bpy.utils.unregister_class(Engine)
     if isinstance(Engine.result, Exception):
         raise Engine.result

@@ -208,7 +208,7 @@ def strengthened(normals, strength):
 
 def material(export, data):
     """The surface of a material of Blender (or of none) and the textures that it uses."""
-    return export.once(("material", data.name if data else None), lambda: make_material(export, data))
+    return export.once(("material", data.name_full if data else None), lambda: make_material(export, data))
 
 
 def make_material(export, data):

@@ -17,10 +17,6 @@ RING = np.array([[0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
 class World(Textures):
     """The nodes of a world."""
 
-    def of_TexEnvironment(self, node, kind):
-        """A colour that stands for the map, which `element` finds by its type."""
-        return None
-
     def background(self, field):
         """The node Background, or None."""
         node = field.source()
@@ -58,6 +54,7 @@ class World(Textures):
             "emitter",
             "envmap",
             string("filename", images.colours(self.export, image)),
+            parameter("gamma", 1.0) if images.is_numbers(image) and not image.is_float else None,
             parameter("scale", strength),
             transform("to_world", self.turn(node)),
         )

@@ -198,4 +198,4 @@ def test_lens(tmp_path):
     lens = bpy.context.scene.camera.data.dof
     lens.use_dof, lens.focus_distance, lens.aperture_fstop = True, 3.0, 0.05
     sheet(2.0, 1.0, plain("Emission", Color=(1.0, 1.0, 1.0), Strength=1.0))
-    agree(tmp_path, 0.005, 0.02)
+    agree(tmp_path, 0.005, 0.03)

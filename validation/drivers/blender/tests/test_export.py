@@ -171,3 +171,14 @@ def test_command_lines(tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "argv", [script, file])
     with pytest.raises(SystemExit, match="usage"):
         runpy.run_path(script, run_name="__main__")
+
+
+@pytest.mark.parametrize("kind, width, expected", [("BOX", 1.0, None), ("BOX", 2.0, "1"), ("GAUSSIAN", 2.0, "0.5"), ("BLACKMAN_HARRIS", 1.5, "0.4155")])
+def test_filters(tmp_path, kind, width, expected):
+    fresh()
+    settings = bpy.context.scene.cycles
+    settings.pixel_filter_type, settings.filter_width = kind, width
+    scene, _ = exported(tmp_path)
+    found = scene.find("sensor/film/rfilter")
+    assert found.get("type") == ("box" if kind == "BOX" else "gaussian")
+    assert [child.get("value") for child in found] == ([] if expected is None else [expected])
