@@ -10,7 +10,7 @@ from mathutils import Matrix
 
 from .elements import boolean, integer, parameter, plugin, string, transform
 
-DEVIATION = {"GAUSSIAN": 0.25, "BLACKMAN_HARRIS": 0.277}  # of Cycles' filters, in their widths; the second window is nearly a Gaussian
+DEVIATION = {"GAUSSIAN": 0.25, "BLACKMAN_HARRIS": 0.277}  # of Cycles' filters in their widths; the latter is nearly Gaussian
 
 
 def frame(export, data):
@@ -64,7 +64,8 @@ def element(export, thing, matrix):
     if data.dof.aperture_blades or data.dof.aperture_ratio != 1.0:
         export.note(f"camera {thing.name}", "its aperture is round")
     radius = data.lens / 1000.0 / (2.0 * data.dof.aperture_fstop)
-    return plugin("sensor", "thinlens", parameter("aperture_radius", radius), parameter("focus_distance", focus(data, to_world)), *parts)
+    parts += [parameter("aperture_radius", radius), parameter("focus_distance", focus(data, to_world))]
+    return plugin("sensor", "thinlens", *parts)
 
 
 def focus(data, to_world):

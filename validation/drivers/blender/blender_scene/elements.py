@@ -3,6 +3,7 @@
 A value of a parameter is a number, a colour of three numbers (linear Rec. 709), or a texture, which is an element.
 """
 
+import copy
 import xml.etree.ElementTree as tree
 
 
@@ -44,8 +45,9 @@ def string(name, value):
 
 
 def parameter(name, value):
-    """A parameter of whatever kind its value has."""
+    """A parameter of whatever kind its value has; of a texture, a copy, so that it can be another one's as well."""
     if isinstance(value, tree.Element):
+        value = copy.deepcopy(value)
         value.set("name", name)
         return value
     if isinstance(value, tuple):

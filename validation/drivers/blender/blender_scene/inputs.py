@@ -3,6 +3,8 @@
 An `Input` is a socket and the groups that it is in: the same group has other inputs at each of its uses.
 """
 
+import bpy
+
 
 class Input:
     """An input of a node."""
@@ -64,9 +66,14 @@ class Node:
         return f"{material}, node {self.node.name}"
 
 
-def output(tree, target):
-    """The node at the end of a material's or world's tree that Cycles would use, if there is one."""
-    end = tree.get_output_node("CYCLES")
-    if end is None:
-        return None
-    return Node(end, None)[target]
+def uses_nodes(data):
+    """Whether a material, a world or a light has nodes that count; from Blender 5.0 on all materials and worlds have."""
+    if bpy.app.version >= (5, 0) and not isinstance(data, bpy.types.Light):
+        return data.node_tree is not None
+    return data.use_nodes and data.node_tree is not None
+
+
+def output(data, target):
+    """The input of this name at the end of a material's, world's or light's nodes that Cycles would use; None without nodes."""
+    end = data.node_tree.get_output_node("CYCLES") if uses_nodes(data) else None
+    return Node(end, None)[target] if end else None

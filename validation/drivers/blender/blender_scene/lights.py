@@ -8,8 +8,8 @@ A lamp of the power P (W) gives, in each of the three channels, what Cycles' has
 | area of A m² | the radiance P/(π A) to one side |
 | sun | its strength is irradiance E; of an angle α, a disk far away of the radiance E/(π sin²(α/2)) |
 
-Without `normalize` the division by the size falls away: a sphere has the radiance P/π, an area P/π, a disk of the sun E; what has
-no radius counts as one of 1 m. Lamps cast no shadows, so their shapes are of the material `null`; and Blender's cameras do not
+Without `normalize` the division by the size falls away: a sphere has the radiance P/π, an area P/π, a disk of the sun E; what
+has no radius counts as one of 1 m. Lamps cast no shadows, so their shapes are of the material `null`; and Blender's cameras do not
 see them.
 """
 
@@ -19,7 +19,7 @@ from bpy_extras.object_utils import world_to_camera_view
 from mathutils import Matrix
 
 from .elements import parameter, plugin, string, transform
-from .inputs import Node
+from .inputs import output, uses_nodes
 
 FAR = 1000.0  # how many sizes of the scene a sun of some extent is away
 MARGIN = 0.1  # how far beyond the picture a lamp's middle still counts as in it, in pictures
@@ -31,9 +31,9 @@ def strength(export, light, name):
     colour = [factor * part for part in light.color]
     if getattr(light, "use_temperature", False):
         colour = [part * warmth for part, warmth in zip(colour, light.temperature_color)]
-    if light.use_nodes and light.node_tree:
-        end = next((node for node in light.node_tree.nodes if node.bl_idname == "ShaderNodeOutputLight" and node.is_active_output), None)
-        node = Node(end, None)["Surface"].source() if end else None
+    if uses_nodes(light):
+        end = output(light, "Surface")
+        node = end.source() if end else None
         if node is None or node.kind != "Emission" or node["Color"].source() or node["Strength"].source():
             export.note(f"light {name}", "of its nodes only an Emission of constant colour and strength is read")
         else:
@@ -58,10 +58,15 @@ def shape(kind, matrix, radiance, *parts):
     )
 
 
+def is_normalized(light):
+    """Whether its strength is that of the whole lamp; before 4.5 Blender had no other."""
+    return getattr(light, "normalize", True)
+
+
 def intensity(light, colour):
     """That of a point or a spot."""
     radius = light.shadow_soft_size
-    return values(colour, 4 * math.pi if light.normalize else math.pi if radius == 0.0 else 1.0 / radius**2)
+    return values(colour, 4 * math.pi if is_normalized(light) else math.pi if radius == 0.0 else 1.0 / radius**2)
 
 
 def point(light, matrix, colour, sharp):
@@ -69,8 +74,9 @@ def point(light, matrix, colour, sharp):
     radius = light.shadow_soft_size
     place = Matrix.Translation(matrix.translation)
     if sharp or radius == 0.0:
-        return plugin("emitter", "point", transform("to_world", place), parameter("intensity", intensity(light, colour)))
-    divisor = math.pi * (4 * math.pi * radius**2 if light.normalize else 1.0)
+        strength = parameter("intensity", intensity(light, colour))
+        return plugin("emitter", "point", transform("to_world", place), strength)
+    divisor = math.pi * (4 * math.pi * radius**2 if is_normalized(light) else 1.0)
     return shape("sphere", place @ Matrix.Scale(radius, 4), values(colour, divisor))
 
 
@@ -111,21 +117,23 @@ def area(export, light, matrix, colour):
     if extent == 0.0:
         export.note(f"light {light.name}", "it has no extent and is left out")
         return None
-    radiance = values(colour, math.pi * (extent if light.normalize else 1.0))
+    radiance = values(colour, math.pi * (extent if is_normalized(light) else 1.0))
     return shape("disk" if round_one else "rectangle", place, radiance)
 
 
 def sun(light, matrix, colour, bounds, sharp):
     """Parallel light, or a disk far away."""
     half = min(light.angle / 2, math.radians(89.0))
-    solid = math.pi * math.sin(half) ** 2 if light.normalize and half else 1.0  # the disk's solid angle, by the cosine
+    solid = math.pi * math.sin(half) ** 2  # the disk's solid angle, by the cosine
+    whole = is_normalized(light) or half == 0.0  # whether the strength is irradiance, not radiance
     if sharp or half == 0.0:
-        irradiance = values(colour, 1.0 if light.normalize or not half else 1.0 / (math.pi * math.sin(half) ** 2))
-        return plugin("emitter", "directional", transform("to_world", turned(matrix)), parameter("irradiance", irradiance))
+        irradiance = parameter("irradiance", values(colour, 1.0 if whole else 1.0 / solid))
+        return plugin("emitter", "directional", transform("to_world", turned(matrix)), irradiance)
     centre, size = bounds
     direction, away = turned(matrix).to_3x3(), FAR * size
-    place = Matrix.Translation(centre - away * direction.col[2]) @ direction.to_4x4() @ Matrix.Scale(away * math.tan(half), 4)
-    return shape("disk", place, values(colour, solid))
+    middle = Matrix.Translation(centre - away * direction.col[2])
+    place = middle @ direction.to_4x4() @ Matrix.Scale(away * math.tan(half), 4)
+    return shape("disk", place, values(colour, solid if whole else 1.0))
 
 
 def is_seen(export, thing, matrix):

@@ -1,7 +1,5 @@
 """Meshes: what Blender's modifiers make of an object, as one PLY file for each of its materials."""
 
-import copy
-
 import numpy as np
 
 from . import ply, shaders, surface
@@ -132,5 +130,5 @@ class Meshes:
             string("filename", path),
             None if matrix is None else transform("to_world", matrix),
             reference(used[data.name_full if data else None][0]),
-            copy.deepcopy(surface.emitter(look)),
+            surface.emitter(look),
         )

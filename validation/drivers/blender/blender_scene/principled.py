@@ -23,7 +23,8 @@ LEFT_OUT = ("Subsurface Weight", "Anisotropic", "Thin Film Thickness", "Diffuse 
 
 def metal(colour, rough):
     """A metal of Schlick's reflectance."""
-    return plugin("bsdf", "principled", parameter("base_color", colour), parameter("metallic", 1.0), parameter("roughness", rough))
+    parts = [parameter("base_color", colour), parameter("metallic", 1.0), parameter("roughness", rough)]
+    return plugin("bsdf", "principled", *parts)
 
 
 def eta(ior, level):
@@ -35,7 +36,8 @@ def eta(ior, level):
 def opaque(shaders, node, colour, rough):
     """The part that is no glass."""
     ior = eta(shaders.constant(node, "IOR"), shaders.constant(node, "Specular IOR Level"))
-    parts = [parameter("base_color", colour), parameter("roughness", rough), parameter("eta", ior), string("diffuse_model", "lambert")]
+    parts = [parameter("base_color", colour), parameter("roughness", rough), parameter("eta", ior)]
+    parts.append(string("diffuse_model", "lambert"))
     metallic, coat = shaders.number(node, "Metallic"), shaders.number(node, "Coat Weight")
     if metallic != 0.0:
         parts.append(parameter("metallic", metallic))

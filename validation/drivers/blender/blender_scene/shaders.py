@@ -1,14 +1,12 @@
 """Shader nodes as BSDFs.
 
-Cycles' facets are GGX, α = roughness², and hide each other by their height (Heitz 2014): `masking` `correlated`. Its "Multiscatter
-GGX" also gives back the light that hits several facets, which no plugin here does.
+Cycles' facets are GGX, α = roughness², and hide each other by their height (Heitz 2014): `masking` `correlated`. Its
+"Multiscatter GGX" also gives back the light that hits several facets, which no plugin here does.
 """
-
-import copy
 
 from . import principled, surface
 from .elements import boolean, parameter, plugin, string, vector
-from .inputs import output
+from .inputs import output, uses_nodes
 from .surface import Surface
 from .textures import Textures, as_kind, is_constant, product
 
@@ -19,13 +17,8 @@ def facets(kind, smooth, rough, *parts):
     """A BSDF of GGX facets of this roughness, or the smooth one of the same name."""
     if is_constant(rough) and rough < SMOOTH:
         return plugin("bsdf", smooth, *parts)
-    alpha = rough * rough if is_constant(rough) else product(rough, again(rough), "number")
-    return plugin("bsdf", kind, string("distribution", "ggx"), string("masking", "correlated"), parameter("alpha", alpha), *parts)
-
-
-def again(value):
-    """A value that can be used a second time: an element has one place."""
-    return copy.deepcopy(value)
+    alpha = parameter("alpha", product(rough, rough, "number"))
+    return plugin("bsdf", kind, string("distribution", "ggx"), string("masking", "correlated"), alpha, *parts)
 
 
 def both_sides(*bsdf):
@@ -36,8 +29,9 @@ def both_sides(*bsdf):
 def glass(rough, ior, reflected, transmitted):
     """Clear or frosted glass of constant index."""
     parts = [parameter("int_ior", ior), parameter("ext_ior", 1.0)]
-    parts += [parameter(name, colour) for name, colour in
-              (("specular_reflectance", reflected), ("specular_transmittance", transmitted)) if colour != (1.0, 1.0, 1.0)]
+    for name, colour in (("specular_reflectance", reflected), ("specular_transmittance", transmitted)):
+        if colour != (1.0, 1.0, 1.0):
+            parts.append(parameter(name, colour))
     return facets("roughdielectric", "dielectric", rough, *parts)
 
 
@@ -102,7 +96,8 @@ class Shaders(Textures):
         """Metal by n and k, or by its colour."""
         rough = self.number(node, "Roughness")
         if node.node.fresnel_type == "PHYSICAL_CONDUCTOR":
-            parts = [parameter("eta", self.constant(node, "IOR", "colour")), parameter("k", self.constant(node, "Extinction", "colour"))]
+            names = (("eta", "IOR"), ("k", "Extinction"))
+            parts = [parameter(name, self.constant(node, theirs, "colour")) for name, theirs in names]
             bsdf = facets("roughconductor", "conductor", rough, *parts)
         else:
             bsdf = principled.metal(self.colour(node, "Base Color"), rough)
@@ -113,7 +108,7 @@ class Shaders(Textures):
     def shader_BsdfGlass(self, node):
         """Glass; its colour multiplies what is reflected and what is transmitted."""
         colour = self.colour(node)
-        bsdf = glass(self.number(node, "Roughness"), self.constant(node, "IOR"), colour, again(colour))
+        bsdf = glass(self.number(node, "Roughness"), self.constant(node, "IOR"), colour, colour)
         return Surface(self.tilted(node, bsdf))
 
     def shader_BsdfRefraction(self, node):
@@ -170,7 +165,8 @@ class Shaders(Textures):
         return bsdf
 
     def normal_map(self, node, bsdf):
-        """Normals of a picture in the frame of the texture coordinates; strength s moves them from (0, 0, 1) by s."""
+        """Normals of a picture in the frame of the texture coordinates. Those that are turned from the viewer, which Cycles bends
+        toward the surface, stay: what they make black is nearer to that than what mirrored ones make bright."""
         picture = node["Color"].source()
         if node.node.space != "TANGENT" or picture is None or picture.kind != "TexImage":
             self.note(node, "only an image in tangent space is read as a normal map; the surface keeps its normals")
@@ -180,7 +176,8 @@ class Shaders(Textures):
             return bsdf
         if strength != 1.0:
             normals = strengthened(normals, max(strength, 0.0))
-        return plugin("bsdf", "normalmap", parameter("normalmap", normals), boolean("flip_invalid_normals", False), bsdf)
+        keep = boolean("flip_invalid_normals", False)
+        return plugin("bsdf", "normalmap", parameter("normalmap", normals), keep, bsdf)
 
     def bump(self, node, bsdf):
         """Normals of heights."""
@@ -190,8 +187,8 @@ class Shaders(Textures):
         if node["Normal"].source():
             self.note(node, "normals below a bump are left out")
         scale = self.constant(node, "Strength") * self.constant(node, "Distance") * (-1 if node.node.invert else 1)
-        heights.set("name", "heights")
-        return plugin("bsdf", "bumpmap", heights, parameter("scale", scale), boolean("flip_invalid_normals", False), bsdf)
+        keep = boolean("flip_invalid_normals", False)
+        return plugin("bsdf", "bumpmap", parameter("heights", heights), parameter("scale", scale), keep, bsdf)
 
 
 def strengthened(normals, strength):
@@ -214,12 +211,12 @@ def material(export, data):
 def make_material(export, data):
     """Reads it."""
     shaders = Shaders(export, f"material {data.name}" if data else "no material")
-    if data is None or not data.node_tree:
+    if data is None or not uses_nodes(data):
         colour = tuple(data.diffuse_color)[:3] if data else (0.8, 0.8, 0.8)
         return Surface(both_sides("diffuse", parameter("reflectance", colour))), shaders
-    end = output(data.node_tree, "Surface")
+    end = output(data, "Surface")
     made = shaders.surface(end) if end else Surface()
     for part in ("Volume", "Displacement"):
-        if end and output(data.node_tree, part).source():
+        if end and output(data, part).source():
             export.note(shaders.material, f"{part.lower()} is left out")
     return made, shaders

@@ -1,4 +1,4 @@
-"""What a shader makes of a surface: of the light that arrives, a share goes straight on, the rest is scattered; and it may shine."""
+"""What a shader makes of a surface: light that arrives goes straight on in part, the rest is scattered; and it may shine."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -34,8 +34,8 @@ def mix(a, b, share, note):
     through = mixed(a.through, b.through, share, "number")
     shines = None
     if a.radiance is not None or b.radiance is not None:
-        dark = (0.0, 0.0, 0.0)
-        shines = mixed(dark if a.radiance is None else a.radiance, dark if b.radiance is None else b.radiance, share, "colour")
+        lights = [(0.0, 0.0, 0.0) if part.radiance is None else part.radiance for part in (a, b)]
+        shines = mixed(*lights, share, "colour")
     if a.through == 1.0 or b.through == 1.0:  # one of them is a hole
         scattering = b.scattering if a.through == 1.0 else a.scattering
     elif a.scattering is None and b.scattering is None:

@@ -66,7 +66,7 @@ def element(export):
     if data is None:
         return None
     world = World(export, f"world {data.name}")
-    end = output(data.node_tree, "Surface") if data.node_tree else None
+    end = output(data, "Surface")
     node = world.background(end) if end else None
     if node is None:
         return None

@@ -1,8 +1,8 @@
 """Exported scenes have the same means in Etalon as in Cycles: over the picture, and over each of 4 × 4 tiles.
 
 Both render 256 samples of a fixed seed, which leaves about 0.02 % of the means of pictures lit by lamps. Bounds are near what was
-measured, and far below any wrong factor: 2, π, 4, an exchanged axis, another curve of colours. Light is neutral where colours must
-agree: a spectral renderer multiplies spectra, not their colours.
+measured, and far below any wrong factor: 2, π, 4, an exchanged axis, another curve of colours. Light is neutral where colours
+must agree: a spectral renderer multiplies spectra, not their colours.
 """
 
 import math
@@ -39,7 +39,9 @@ LAMPS = {
     "point, as watts per square metre": dict(kind="POINT", energy=100.0, normalize=False),
     "point, two stops more": dict(kind="POINT", energy=100.0, exposure=2.0),
     "ball": dict(kind="POINT", energy=100.0, shadow_soft_size=0.2, use_soft_falloff=False),
-    "ball, as watts per square metre": dict(kind="POINT", energy=100.0, shadow_soft_size=0.2, use_soft_falloff=False, normalize=False),
+    "ball, as watts per square metre": dict(
+        kind="POINT", energy=100.0, shadow_soft_size=0.2, use_soft_falloff=False, normalize=False
+    ),
     "spot": dict(kind="SPOT", energy=100.0, spot_size=math.radians(80), spot_blend=0.3),
     "wide spot": dict(kind="SPOT", energy=100.0, spot_size=math.radians(150), spot_blend=1.0),
     "square": dict(kind="AREA", energy=100.0, size=1.0),
@@ -96,7 +98,8 @@ def test_textures(tmp_path):
     """An image, turned and stretched."""
     fresh()
     mapping = dict(Location=(0.2, 0.1, 0.0), Rotation=(0.0, 0.0, 0.5), Scale=(2.0, 3.0, 1.0))
-    sheet(4.0, 2.0, material(lambda tree: shader(tree, "BsdfDiffuse", Color=texture(tree, picture("image"), **mapping).outputs[0])))
+    image = picture("image")
+    sheet(4.0, 2.0, material(lambda tree: shader(tree, "BsdfDiffuse", Color=texture(tree, image, **mapping).outputs[0])))
     sun()
     assert agree(tmp_path, 0.002, 0.004) == []
 
@@ -114,7 +117,8 @@ def test_textures_of_bytes(tmp_path):
 def test_shining_textures(tmp_path):
     """An image that emits; its white is D65."""
     fresh()
-    sheet(4.0, 2.0, material(lambda tree: shader(tree, "Emission", Color=texture(tree, picture("image")).outputs[0], Strength=3.0)))
+    image = picture("image")
+    sheet(4.0, 2.0, material(lambda tree: shader(tree, "Emission", Color=texture(tree, image).outputs[0], Strength=3.0)))
     assert agree(tmp_path, 0.002, 0.004) == []
 
 

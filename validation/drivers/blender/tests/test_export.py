@@ -173,7 +173,10 @@ def test_command_lines(tmp_path, monkeypatch):
         runpy.run_path(script, run_name="__main__")
 
 
-@pytest.mark.parametrize("kind, width, expected", [("BOX", 1.0, None), ("BOX", 2.0, "1"), ("GAUSSIAN", 2.0, "0.5"), ("BLACKMAN_HARRIS", 1.5, "0.4155")])
+@pytest.mark.parametrize(
+    "kind, width, expected",
+    [("BOX", 1.0, None), ("BOX", 2.0, "1"), ("GAUSSIAN", 2.0, "0.5"), ("BLACKMAN_HARRIS", 1.5, "0.4155")],
+)
 def test_filters(tmp_path, kind, width, expected):
     fresh()
     settings = bpy.context.scene.cycles

@@ -45,7 +45,7 @@ def test_what_shines_by_a_texture_is_lit_by_d65():
 def read_ply(path):
     header, _, data = path.read_bytes().partition(b"end_header\n")
     lines = header.decode().splitlines()
-    count, faces = (int(next(line for line in lines if line.startswith(f"element {what}")).split()[2]) for what in ("vertex", "face"))
+    count, faces = (int(line.split()[2]) for line in lines if line.startswith("element"))
     names = [line.split()[2] for line in lines if line.startswith("property float")]
     vertices = np.frombuffer(data, "<f4", count * len(names)).reshape(count, len(names))
     rest = np.frombuffer(data[vertices.nbytes :], [("count", "u1"), ("corners", "<i4", 3)])
