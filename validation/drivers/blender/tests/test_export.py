@@ -185,3 +185,21 @@ def test_filters(tmp_path, kind, width, expected):
     found = scene.find("sensor/film/rfilter")
     assert found.get("type") == ("box" if kind == "BOX" else "gaussian")
     assert [child.get("value") for child in found] == ([] if expected is None else [expected])
+
+
+def test_a_texture_may_be_used_twice(tmp_path):
+    """Holes by an image: what is not there does not shine, either."""
+    fresh()
+
+    def build(nodes):
+        alpha = texture(nodes, picture("holes")).outputs["Alpha"]
+        return shader(nodes, "BsdfPrincipled", Alpha=alpha, Emission_Strength=2.0, Emission_Color=(1.0, 0.5, 0.25))
+
+    sheet(1.0, 1.0, material(build))
+    scene, notes = exported(tmp_path)
+    opacity = scene.find("bsdf[@type='mask']/texture[@name='opacity']")
+    light = scene.find("shape/emitter/spectrum[@name='radiance']/texture")
+    assert light.get("type") == "multiply" and notes == []
+    for parent in (opacity, light):
+        assert len(list(parent.iter("texture"))) > 1 and "holes-a.pfm" in tree.tostring(parent, encoding="unicode")
+    assert value(light, "a") == "2, 1, 0.5"
