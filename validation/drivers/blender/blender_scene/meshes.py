@@ -82,6 +82,9 @@ class Meshes:
     def add(self, instance):
         """Takes a mesh in one of its places."""
         thing = instance.object
+        if abs(instance.matrix_world.determinant()) < 1e-30:
+            self.export.note(f"object {thing.name}", "its scale makes it flat, which is left out")
+            return
         key = (thing.data.as_pointer() if thing.type == "MESH" else thing.original.name_full, *self.materials(thing))
         if key not in self.parts:
             mesh = thing.to_mesh()

@@ -15,17 +15,19 @@ from .meshes import SURFACES, Meshes
 
 UNREAD = {"VOLUME": "volumes", "POINTCLOUD": "point clouds", "GREASEPENCIL": "strokes", "CURVES": "hair curves"}
 VISIBLE = ("camera", "diffuse", "glossy", "transmission", "shadow")  # to which rays an object can be invisible
-ALONE = dict(engine="ETALON_EXPORT", use_compositing=False, use_sequencer=False, use_single_layer=True)  # nothing else may run
+ALONE = dict(engine="ETALON_EXPORT", use_compositing=False, use_sequencer=False)  # nothing else may run
 
 
 class Engine(bpy.types.RenderEngine):
     """The engine that writes what it should render; `folder` says where to, `result` what became of it."""
 
     bl_idname, bl_label = ALONE["engine"], "Export for Etalon"
-    folder, result = None, None
+    folder, layer, result = None, None, None
 
     def render(self, depsgraph):
-        """Writes the scene. Blender swallows what is raised here."""
+        """Writes the scene as it is in the active view layer. Blender swallows what is raised here."""
+        if depsgraph.view_layer.name != Engine.layer:
+            return
         try:
             Engine.result = write(Path(Engine.folder), depsgraph)
         except Exception as fault:
@@ -82,7 +84,7 @@ def run(folder):
     before = {name: getattr(render, name) for name in ALONE}
     bpy.utils.register_class(Engine)
     try:
-        Engine.folder, Engine.result = folder, None
+        Engine.folder, Engine.layer, Engine.result = folder, bpy.context.view_layer.name, None
         for name, value in ALONE.items():
             setattr(render, name, value)
         bpy.ops.render.render()
@@ -90,6 +92,8 @@ def run(folder):
         for name, value in before.items():
             setattr(render, name, value)
         bpy.utils.unregister_class(Engine)
+    if Engine.result is None:
+        raise ValueError("the active view layer is not one that is rendered")
     if isinstance(Engine.result, Exception):
         raise Engine.result
     return Engine.result

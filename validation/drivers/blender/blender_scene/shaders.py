@@ -27,12 +27,16 @@ def both_sides(*bsdf):
 
 
 def glass(rough, ior, reflected, transmitted):
-    """Clear or frosted glass of constant index."""
+    """Clear or frosted glass of constant index; of the index of the air, a sheet that only colours what goes through."""
+    if abs(ior - 1.0) < 1e-4:
+        rough, sheet, ior = 0.0, "thindielectric", 1.0
+    else:
+        sheet = "dielectric"
     parts = [parameter("int_ior", ior), parameter("ext_ior", 1.0)]
     for name, colour in (("specular_reflectance", reflected), ("specular_transmittance", transmitted)):
         if colour != (1.0, 1.0, 1.0):
             parts.append(parameter(name, colour))
-    return facets("roughdielectric", "dielectric", rough, *parts)
+    return facets("roughdielectric", sheet, rough, *parts)
 
 
 class Shaders(Textures):

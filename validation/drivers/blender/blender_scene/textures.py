@@ -78,7 +78,8 @@ class Textures:
         found = make(node, kind) if make and not node.node.mute else None
         if found is None:
             value = as_kind(field.constant(), kind)
-            self.note(node, f"the node {node.node.bl_label} is not read; {field.socket.name} has its own value {value} instead")
+            shown = f"({', '.join(f'{part:.4g}' for part in value)})" if isinstance(value, tuple) else f"{value:.4g}"
+            self.note(node, f"the node {node.node.bl_label} is not read; {field.socket.name} has its own value {shown} instead")
             return value
         return found
 

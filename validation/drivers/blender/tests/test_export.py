@@ -33,7 +33,7 @@ def test_what_is_not_read_is_named(tmp_path):
     sheet(1.0, 1.0, plain("BsdfToon", Color=(0.1, 0.2, 0.3)))
     scene, notes = exported(tmp_path)
     assert len(notes) == 2
-    assert "material rusty, node Noise Texture" in notes[0] and "own value (0.8" in notes[0]
+    assert "material rusty, node Noise Texture" in notes[0] and "Color has its own value (0.8, 0.8, 0.8) instead" in notes[0]
     assert "node Toon BSDF" in notes[1] and "diffuse" in notes[1]
     assert value(scene.findall("bsdf")[1][0], "reflectance").startswith("0.1")
 
@@ -202,4 +202,28 @@ def test_a_texture_may_be_used_twice(tmp_path):
     assert light.get("type") == "multiply" and notes == []
     for parent in (opacity, light):
         assert len(list(parent.iter("texture"))) > 1 and "holes-a.pfm" in tree.tostring(parent, encoding="unicode")
-    assert value(light, "a") == "2, 1, 0.5"
+    assert value(light, "a") == "2, 1, 0.5" and light[1].get("name") == "b"
+
+
+def test_one_layer_is_exported(tmp_path):
+    """The active one, though another sees less."""
+    fresh()
+    part = bpy.data.collections.new("part")
+    bpy.context.scene.collection.children.link(part)
+    thing = floor()
+    bpy.context.scene.collection.objects.unlink(thing)
+    part.objects.link(thing)
+    bpy.context.scene.view_layers.new("without").layer_collection.children["part"].exclude = True
+    scene, _ = exported(tmp_path)
+    assert len(scene.findall("shape")) == 1
+
+
+def test_what_has_no_like_is_still_rendered(tmp_path):
+    """A flat object, glass of the index of the air, an object without faces."""
+    fresh()
+    floor().scale = (1.0, 1.0, 0.0)
+    ball(plain("BsdfGlass", IOR=1.0, Roughness=0.5))
+    place(bpy.data.meshes.new("nothing"), (0.0, 0.0, 0.0))
+    scene, notes = exported(tmp_path)
+    assert notes == ["object sheet: its scale makes it flat, which is left out"]
+    assert scene.find("bsdf").get("type") == "thindielectric" and len(scene.findall("shape")) == 1
