@@ -7,7 +7,7 @@ import numpy as np
 from mathutils import Euler, Matrix
 
 from . import images
-from .elements import boolean, parameter, plugin, string, transform
+from .elements import boolean, parameter, plugin, string, text, transform
 
 WRAPS = {"REPEAT": "repeat", "EXTEND": "clamp", "CLIP": "zero", "MIRROR": "mirror"}
 FLIP = np.array([[1, 0, 0, 0], [0, -1, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1.0]])  # v from below in Blender, from above in Etalon
@@ -169,6 +169,29 @@ class Textures:
         if feed is None:
             return as_kind(node["Color"].constant()[channels[node.output.name]], kind)
         return self.bitmap(feed, channels[node.output.name]) if feed.kind == "TexImage" else None
+
+    def of_ValToRGB(self, node, kind):
+        """A ramp of colours; curved ones by 65 points of them."""
+        if node.output.name != "Color":
+            return None
+        ramp, position = node.node.color_ramp, self.value(node[0], "number")
+        if is_constant(position):
+            return as_kind(tuple(ramp.evaluate(position))[:3], kind)
+        if ramp.color_mode == "RGB" and ramp.interpolation in ("LINEAR", "CONSTANT"):
+            stops = [(stop.position, tuple(stop.color)) for stop in ramp.elements]
+        else:
+            stops = [(step / 64, tuple(ramp.evaluate(step / 64))) for step in range(65)]
+        if ramp.color_mode == "RGB" and ramp.interpolation == "CONSTANT":  # each colour lasts until the next one
+            stops += [(after[0], before[1]) for before, after in zip(stops, stops[1:])]
+            stops = [stop for _, stop in sorted(enumerate(stops), key=lambda one: (one[1][0], -one[0]))]
+        colours = [as_kind(as_kind(colour[:3], kind), "colour") for _, colour in stops]
+        return plugin(
+            "texture",
+            "ramp",
+            parameter("input", position),
+            string("positions", " ".join(text(place) for place, _ in stops)),
+            string("colors", ", ".join(" ".join(map(text, colour)) for colour in colours)),
+        )
 
     def of_Mix(self, node, kind):
         """The node Mix, of colours or numbers."""

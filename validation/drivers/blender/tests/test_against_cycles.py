@@ -117,6 +117,26 @@ def test_textures_of_bytes(tmp_path):
     assert (tmp_path / "textures/image.png").exists()
 
 
+@pytest.mark.parametrize("interpolation", ["LINEAR", "CONSTANT", "EASE"])
+def test_ramps_of_colours(tmp_path, interpolation):
+    """Colours by the luminance of an image; Cycles has a table of 256, which moves steps a little."""
+    fresh()
+
+    def build(tree):
+        position = texture(tree, picture("image", 256, 128)).outputs[0]
+        ramp = tree.nodes.new("ShaderNodeValToRGB")
+        ramp.color_ramp.interpolation = interpolation
+        ramp.color_ramp.elements.new(0.4).color = (0.8, 0.2, 0.1, 1.0)
+        ramp.color_ramp.elements[0].position, ramp.color_ramp.elements[2].position = 0.2, 0.7
+        ramp.color_ramp.elements[0].color = (0.1, 0.3, 0.6, 1.0)
+        tree.links.new(position, ramp.inputs[0])
+        return shader(tree, "BsdfDiffuse", Color=ramp.outputs["Color"])
+
+    sheet(4.0, 2.0, material(build))
+    sun()
+    assert agree(tmp_path, 0.01, 0.02) == []
+
+
 def test_shining_textures(tmp_path):
     """An image that emits; its white is D65."""
     fresh()
