@@ -8,9 +8,9 @@ A lamp of the power P (W) gives, in each of the three channels, what Cycles' has
 | area of A m² | the radiance P/(π A) to one side |
 | sun | its strength is irradiance E; of an angle α, a disk far away of the radiance E/(π sin²(α/2)) |
 
-Without `normalize` the division by the size falls away: a sphere or an area has the radiance P/π, a disk of the sun E; what has no
-radius counts as one of 1 m. Lamps cast no shadows, so their shapes are of the material `null`; and Blender's cameras do not
-see them.
+Without `normalize` the division by the size falls away: a sphere or an area has the radiance P/π, a disk of the sun E; what
+has no radius counts as one of 1 m. Lamps cast no shadows, so their shapes are of the material `null`; and Blender's cameras do
+not see them.
 """
 
 import math
