@@ -153,6 +153,9 @@ impl Assets for FileAssets {
         if let Some(mesh) = self.meshes.get(name) {
             return Ok((**mesh).clone());
         }
+        if let Some(bytes) = self.embedded.get(name) {
+            return parsed(format, name, bytes);
+        }
         let path = self.find(name)?;
         if let MeshFormat::Serialized { shape_index } = format {
             return self.serialized(name, &path, shape_index);
@@ -160,16 +163,21 @@ impl Assets for FileAssets {
         let bytes = self.read(name, &path)?;
         // pbrt's scenes have compressed PLY files.
         let bytes = gzip::plain(bytes, self.limit).map_err(|reason| unreadable(name, &reason))?;
-        let mesh = match format {
-            MeshFormat::Obj => obj::parse(&bytes),
-            MeshFormat::PlyPoints => ply::parse_points(&bytes),
-            _ => ply::parse(&bytes),
-        };
-        mesh.map_err(|error| AssetError {
-            message: format!("`{name}`, {error}"),
-            help: looks_like_another(format, &bytes),
-        })
+        parsed(format, name, &bytes)
     }
+}
+
+/// The mesh in the contents of a file, OBJ or PLY.
+fn parsed(format: MeshFormat, name: &str, bytes: &[u8]) -> Result<MeshData, AssetError> {
+    let mesh = match format {
+        MeshFormat::Obj => obj::parse(bytes),
+        MeshFormat::PlyPoints => ply::parse_points(bytes),
+        _ => ply::parse(bytes),
+    };
+    mesh.map_err(|error| AssetError {
+        message: format!("`{name}`, {error}"),
+        help: looks_like_another(format, bytes),
+    })
 }
 
 fn unreadable(name: &str, reason: &str) -> AssetError {
@@ -231,6 +239,35 @@ mod tests {
         let (_folder, assets) = folder();
         let mesh = assets.mesh(MeshFormat::Obj, "a.obj").expect("read");
         assert_eq!(mesh.triangles, [[0, 1, 2]]);
+    }
+
+    #[test]
+    fn files_in_memory_belong_to_a_scene() {
+        let mesh = MeshData {
+            positions: vec![glam::Vec3::X, glam::Vec3::Y, glam::Vec3::Z],
+            triangles: vec![[0, 1, 2]],
+            ..MeshData::default()
+        };
+        let scene = crate::mitsuba::SceneInMemory {
+            name: "<here>".into(),
+            text: "<scene version=\"3.0.0\"/>".into(),
+            files: vec![Arc::new(b"12".to_vec()), Arc::new(ply::write(&mesh))],
+        };
+        let read = crate::mitsuba::read_in_memory(&scene, &crate::ReadOptions::default());
+        let document = read.sound().expect("no mistakes");
+        let named: Vec<_> = document.files.iter().map(|file| &file.bytes[..]).collect();
+        assert_eq!(named[..2], [scene.text.as_bytes(), b"12"]);
+        assert_eq!(document.files[2].path, PathBuf::from(embedded_name(1)));
+        let assets = FileAssets::of(document);
+        assert_eq!(**assets.bytes(&embedded_name(0)).expect("there"), *b"12");
+        let again = assets.mesh(MeshFormat::Ply, &embedded_name(1));
+        assert_eq!(again.expect("a mesh").positions, mesh.positions);
+        let wrong = assets.mesh(MeshFormat::Obj, &embedded_name(1));
+        let help = wrong.expect_err("not OBJ").help;
+        assert_eq!(
+            help.as_deref(),
+            Some("this is a PLY file: use the shape `ply`")
+        );
     }
 
     #[test]

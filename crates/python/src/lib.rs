@@ -4,12 +4,14 @@
 //! see are in `etalon.pyi`.
 
 mod comparison;
+mod dict;
 mod errors;
 mod image;
 mod planes;
 mod progress_report;
 mod render;
 mod scene;
+mod transform;
 
 /// Etalon renders scenes with their statistical errors, and decides whether pictures agree.
 #[pyo3::pymodule]
@@ -23,5 +25,7 @@ mod etalon {
     #[pymodule_export]
     use crate::render::render;
     #[pymodule_export]
-    use crate::scene::{Scene, load_file, load_string};
+    use crate::scene::{Scene, dict_to_xml, load_dict, load_file, load_string};
+    #[pymodule_export]
+    use crate::transform::Transform;
 }

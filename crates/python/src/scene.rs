@@ -1,5 +1,6 @@
 //! Scenes: read, checked and compiled.
 
+use crate::dict::{Keys, SceneDict};
 use crate::errors::scene_error;
 use etalon_render::pipeline::{self, LoadError, LoadOptions, Loaded};
 use pyo3::prelude::*;
@@ -12,6 +13,7 @@ use std::sync::Arc;
 enum Origin {
     File(PathBuf),
     Text(String),
+    Dict(Arc<SceneDict>),
 }
 
 impl Origin {
@@ -19,11 +21,20 @@ impl Origin {
         match self {
             Self::File(path) => pipeline::load(path, options),
             Self::Text(text) => pipeline::load_text(text, options),
+            Self::Dict(dict) => pipeline::load_in_memory(&dict.scene, options),
+        }
+    }
+
+    /// The keys for the lines of its text: none but for a dict.
+    fn keys(&self) -> Keys {
+        match self {
+            Self::Dict(dict) => dict.keys.clone(),
+            Self::File(_) | Self::Text(_) => Keys::default(),
         }
     }
 }
 
-/// A scene that is ready to be rendered, as made by `load_file` and `load_string`.
+/// A scene that is ready to be rendered, as made by `load_file`, `load_string` and `load_dict`.
 #[pyclass(module = "etalon", frozen)]
 pub(crate) struct Scene {
     origin: Origin,
@@ -38,10 +49,11 @@ impl Scene {
             ..LoadOptions::default()
         };
         let loaded = py.detach(|| origin.load(&options));
+        let loaded = loaded.map_err(|error| scene_error(&error, &origin.keys()))?;
         Ok(Self {
             origin,
             options,
-            loaded: Arc::new(loaded.map_err(|error| scene_error(&error))?),
+            loaded: Arc::new(loaded),
         })
     }
 
@@ -57,7 +69,13 @@ impl Scene {
         let mut options = self.options.clone();
         change(&mut options);
         let loaded = py.detach(|| self.origin.load(&options));
-        loaded.map(Arc::new).map_err(|error| scene_error(&error))
+        let loaded = loaded.map_err(|error| scene_error(&error, &self.keys()))?;
+        Ok(Arc::new(loaded))
+    }
+
+    /// The keys of its dict, if it has one.
+    pub(crate) fn keys(&self) -> Keys {
+        self.origin.keys()
     }
 }
 
@@ -75,12 +93,12 @@ impl Scene {
         self.loaded.compiled.film.crop_size.into()
     }
 
-    /// Remarks about the scene that do not prevent rendering, each `file:line:column: note: …`.
+    /// Remarks about the scene that do not prevent rendering, each `file:line:column: note: …` or `key.path: note: …`.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        let notes = self.loaded.notes.iter();
+        let (notes, keys) = (self.loaded.notes.iter(), self.keys());
         notes
-            .map(|note| note.one_line(&self.loaded.sources))
+            .map(|note| keys.one_line(note, &self.loaded.sources))
             .collect()
     }
 
@@ -131,6 +149,33 @@ pub(crate) fn load_string(
     defines: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Scene> {
     Scene::load(py, Origin::Text(xml), defines)
+}
+
+/// Reads a scene from a dict in Mitsuba 3's manner, called `<dict>` in messages without a key path.
+///
+/// dict: {'type': 'scene', …}. Its keys are names: a dict within is an object with the plugin of its `type`; {'type': 'ref',
+/// 'id': …} is another object, by its `id`, its key or its path of keys; {'type': 'rgb', 'value': [r, g, b]} and
+/// {'type': 'spectrum', 'value': a number or pairs (nm, value)} are colours; three numbers are a point or vector; a
+/// `Transform` or 4 × 4 numbers are a transform. Relative files are looked for in the current folder.
+///
+/// Arrays, which are copied: `data` of a `bitmap` or `envmap` is height × width, or × 1, 3 or 4 channels, floats (linear) or
+/// uint8 (sRGB unless `raw`); `data` of a `gridvolume` or `sdfgrid` is z × y × x, or × 1, 3 or 6 channels; a `mesh` has
+/// `vertices` (N × 3, m), `faces` (M × 3, indices from 0) and possibly `normals` (N × 3), `uv` (N × 2) and attributes
+/// `vertex_…` and `face_…` (1 or 3 numbers each).
+///
+/// Raises `SceneError` with every mistake, each with its path of keys.
+#[pyfunction]
+pub(crate) fn load_dict(py: Python<'_>, dict: &Bound<'_, PyDict>) -> PyResult<Scene> {
+    let dict = SceneDict::read(dict, true)?;
+    Scene::load(py, Origin::Dict(Arc::new(dict)), None)
+}
+
+/// The text of Mitsuba's XML that a dict stands for; `load_dict` says what is in one.
+///
+/// Raises `SceneError` if it has arrays, which no text can hold, or values that cannot be written.
+#[pyfunction]
+pub(crate) fn dict_to_xml(dict: &Bound<'_, PyDict>) -> PyResult<String> {
+    Ok(SceneDict::read(dict, false)?.scene.text)
 }
 
 /// Values as they would stand in the scene: `True` is `true`.

@@ -42,6 +42,19 @@ pub fn load_text(text: &str, options: &LoadOptions) -> Result<Loaded, LoadError>
     compile(read, Path::new(mitsuba::TEXT), options, start)
 }
 
+/// The same with files that are in memory, too: see [`mitsuba::read_in_memory`].
+///
+/// # Errors
+/// As [`load`].
+pub fn load_in_memory(
+    scene: &mitsuba::SceneInMemory,
+    options: &LoadOptions,
+) -> Result<Loaded, LoadError> {
+    let start = Instant::now();
+    let read = mitsuba::read_in_memory(scene, &options.reading());
+    compile(read, Path::new(&scene.name), options, start)
+}
+
 /// Compiles what was read from `start` on.
 fn compile(
     read: ReadOutcome,
