@@ -1,38 +1,14 @@
 //! Scenes: read, checked and compiled.
 
-use crate::dict::{Keys, SceneDict};
+use crate::dict::{Keys, SceneDict, changes};
 use crate::errors::scene_error;
-use etalon_render::pipeline::{self, LoadError, LoadOptions, Loaded};
+use crate::origin::{Origin, Text};
+use crate::scene_values::{Listing, to_python};
+use etalon_render::pipeline::{LoadOptions, Loaded};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBool, PyDict};
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Where a scene comes from, to be read again with other options.
-#[derive(Clone)]
-enum Origin {
-    File(PathBuf),
-    Text(String),
-    Dict(Arc<SceneDict>),
-}
-
-impl Origin {
-    fn load(&self, options: &LoadOptions) -> Result<Loaded, LoadError> {
-        match self {
-            Self::File(path) => pipeline::load(path, options),
-            Self::Text(text) => pipeline::load_text(text, options),
-            Self::Dict(dict) => pipeline::load_in_memory(&dict.scene, options),
-        }
-    }
-
-    /// The keys for the lines of its text: none but for a dict.
-    fn keys(&self) -> Keys {
-        match self {
-            Self::Dict(dict) => dict.keys.clone(),
-            Self::File(_) | Self::Text(_) => Keys::default(),
-        }
-    }
-}
 
 /// A scene that is ready to be rendered, as made by `load_file`, `load_string` and `load_dict`.
 #[pyclass(module = "etalon", frozen)]
@@ -43,12 +19,16 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    fn load(py: Python<'_>, origin: Origin, defines: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+    fn load(py: Python<'_>, text: Text, defines: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let options = LoadOptions {
             defines: defines.map(as_text).transpose()?.unwrap_or_default(),
             ..LoadOptions::default()
         };
-        let loaded = py.detach(|| origin.load(&options));
+        Self::compile(py, Origin::new(text), options)
+    }
+
+    fn compile(py: Python<'_>, origin: Origin, options: LoadOptions) -> PyResult<Self> {
+        let loaded = py.detach(|| origin.load(&options, &options));
         let loaded = loaded.map_err(|error| scene_error(&error, &origin.keys()))?;
         Ok(Self {
             origin,
@@ -68,7 +48,7 @@ impl Scene {
         };
         let mut options = self.options.clone();
         change(&mut options);
-        let loaded = py.detach(|| self.origin.load(&options));
+        let loaded = py.detach(|| self.origin.load(&options, &self.options));
         let loaded = loaded.map_err(|error| scene_error(&error, &self.keys()))?;
         Ok(Arc::new(loaded))
     }
@@ -108,6 +88,27 @@ impl Scene {
         self.loaded.described.parameters.clone().into_py_dict(py)
     }
 
+    /// The values of the scene's plugins, by paths of keys such as 'ball.bsdf.reflectance', as far as they are given.
+    ///
+    /// A key is a name, or else an `id`, or else a type ('sphere', 'sphere_2', …). Numbers, texts, and arrays: 3 for points,
+    /// vectors and colours, n × 2 for spectra (nm, value), 4 × 4 for transforms.
+    fn values<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let listing = Listing::of(&self.loaded.described.root);
+        let values = listing.values();
+        let values = values.map(|(path, value)| Ok((path, to_python(py, value)?)));
+        values.collect::<PyResult<Vec<_>>>()?.into_py_dict(py)
+    }
+
+    /// The scene with other values: a dict from paths as `values()` has them, or of parameters that are not given yet.
+    ///
+    /// This scene stays as it is. What is read for the first change, files included, stays in memory for further ones. A value
+    /// is as in `load_dict`; three numbers in place of a colour, number or texture are a colour.
+    fn with_values(&self, py: Python<'_>, values: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let listing = Listing::of(&self.loaded.described.root);
+        let changes = changes::read(values, &listing)?;
+        Self::compile(py, self.origin.with(changes), self.options.clone())
+    }
+
     fn __repr__(&self) -> String {
         let (width, height) = self.size();
         let path = self.loaded.path.display();
@@ -135,7 +136,7 @@ pub(crate) fn load_file(
             format!("cannot read {}: {error}", path.display()),
         ))
     })?;
-    Scene::load(py, Origin::File(path), defines)
+    Scene::load(py, Text::File(path), defines)
 }
 
 /// Reads a scene from a text of Mitsuba's XML, called `<string>` in messages.
@@ -148,7 +149,7 @@ pub(crate) fn load_string(
     xml: String,
     defines: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Scene> {
-    Scene::load(py, Origin::Text(xml), defines)
+    Scene::load(py, Text::Xml(xml), defines)
 }
 
 /// Reads a scene from a dict in Mitsuba 3's manner, called `<dict>` in messages without a key path.
@@ -167,7 +168,7 @@ pub(crate) fn load_string(
 #[pyfunction]
 pub(crate) fn load_dict(py: Python<'_>, dict: &Bound<'_, PyDict>) -> PyResult<Scene> {
     let dict = SceneDict::read(dict, true)?;
-    Scene::load(py, Origin::Dict(Arc::new(dict)), None)
+    Scene::load(py, Text::Dict(dict), None)
 }
 
 /// The text of Mitsuba's XML that a dict stands for; `load_dict` says what is in one.

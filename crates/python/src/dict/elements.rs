@@ -51,7 +51,7 @@ impl<'a, 'py> Elements<'a, 'py> {
             let path = root.path_of(key);
             match entry {
                 // Colours in a scene are there to be referred to, and are written where they are.
-                Entry::Object(object) if is_colour(object) => {
+                Entry::Object(object) if object.is_colour() => {
                     self.colour(object, &path, key);
                 }
                 Entry::Object(object) => self.object(object, &path, key, 1)?,
@@ -77,7 +77,7 @@ impl<'a, 'py> Elements<'a, 'py> {
         key: &str,
         depth: usize,
     ) -> PyResult<()> {
-        if is_colour(object) {
+        if object.is_colour() {
             let element = self.colour(object, path, key);
             element.inspect(|element| self.line(path, depth, element));
             return Ok(());
@@ -159,7 +159,7 @@ impl<'a, 'py> Elements<'a, 'py> {
             return;
         };
         let found = self.ids.find(id);
-        if let Some(colour) = found.filter(|found| is_colour(found)) {
+        if let Some(colour) = found.filter(|found| found.is_colour()) {
             let element = self.colour(colour, path, key);
             element.inspect(|element| self.line(path, depth, element));
             return;
@@ -262,10 +262,6 @@ impl<'a, 'py> Elements<'a, 'py> {
         }
         Ok(())
     }
-}
-
-fn is_colour(object: &Object<'_>) -> bool {
-    matches!(object.kind.as_str(), "rgb" | "spectrum")
 }
 
 fn element(tag: &str, attributes: &[(&str, impl Display)]) -> String {

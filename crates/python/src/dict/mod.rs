@@ -4,6 +4,7 @@
 //! other text: whatever XML can say, a dict can. [`Keys`] leads from the lines of messages back to the keys of the dict.
 
 mod arrays;
+pub(crate) mod changes;
 mod classes;
 mod elements;
 mod keys;

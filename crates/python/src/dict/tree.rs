@@ -40,11 +40,16 @@ impl<'py> Object<'py> {
         })
     }
 
-    fn objects(&self) -> impl Iterator<Item = &Object<'py>> {
+    pub(super) fn objects(&self) -> impl Iterator<Item = &Object<'py>> {
         self.entries.iter().filter_map(|(_, entry)| match entry {
             Entry::Object(object) => Some(object),
             Entry::Value(_) => None,
         })
+    }
+
+    /// Whether it is no plugin, but a colour or spectrum.
+    pub(super) fn is_colour(&self) -> bool {
+        matches!(self.kind.as_str(), "rgb" | "spectrum")
     }
 
     /// It and all objects within.

@@ -148,6 +148,11 @@ fn array(value: &Bound<'_, PyAny>) -> Option<(Vec<usize>, Vec<f64>)> {
     Some((array.shape().to_vec(), numbers)).filter(|(shape, _)| !shape.is_empty())
 }
 
+/// The shape of an array; none of a single number, or of anything else.
+pub(super) fn shape(value: &Bound<'_, PyAny>) -> Option<Vec<usize>> {
+    array(value).map(|(shape, _)| shape)
+}
+
 /// A transform of 4 × 4 numbers or, for textures, of 3 × 3.
 fn transform(value: &Bound<'_, PyAny>, key: &str) -> Result<Written, Refusal> {
     let (shape, n) = array(value).unwrap_or_default();
