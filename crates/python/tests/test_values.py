@@ -3,9 +3,8 @@
 import etalon as et
 import numpy as np
 import pytest
-from test_dict import CHECKER, LOOK, PAIRS, PARTS_XML, ball, pixels, scene, scene_xml, with_bsdf, write_png
-
-T = et.Transform
+from dict_scenes import CHECKER, LOOK, PAIRS, PARTS_XML, T, ball, pixels, scene, scene_xml, with_bsdf
+from written_files import write_png
 
 
 def test_values_are_those_of_the_dict():
@@ -32,11 +31,29 @@ def test_the_same_values_are_the_same_scene(name):
     [
         ("ball.radius", 0.5, dict(ball=ball(radius=0.5))),
         ("ball.center", [0.3, 0, 0], dict(ball=ball(center=[0.3, 0, 0]))),
-        ("lamp.position", (0, -3, 2), dict(lamp={"type": "point", "position": [0, -3, 2], "intensity": {"type": "spectrum", "value": 20}})),
-        ("light.radiance", [0.9, 0.1, 0.1], dict(light={"type": "constant", "radiance": {"type": "rgb", "value": [0.9, 0.1, 0.1]}})),
+        (
+            "lamp.position",
+            (0, -3, 2),
+            dict(lamp={"type": "point", "position": [0, -3, 2], "intensity": {"type": "spectrum", "value": 20}}),
+        ),
+        (
+            "light.radiance",
+            [0.9, 0.1, 0.1],
+            dict(light={"type": "constant", "radiance": {"type": "rgb", "value": [0.9, 0.1, 0.1]}}),
+        ),
         ("light.radiance", 0.25, dict(light={"type": "constant", "radiance": {"type": "rgb", "value": 0.25}})),
         ("floor.to_world", T().scale(2), dict(floor={"type": "rectangle", "to_world": T().scale(2)})),
-        ("lamp.intensity", [(400, 5), (700, 30)], dict(lamp={"type": "point", "position": [1, -2, 3], "intensity": {"type": "spectrum", "value": [(400, 5), (700, 30)]}})),
+        (
+            "lamp.intensity",
+            [(400, 5), (700, 30)],
+            dict(
+                lamp={
+                    "type": "point",
+                    "position": [1, -2, 3],
+                    "intensity": {"type": "spectrum", "value": [(400, 5), (700, 30)]},
+                }
+            ),
+        ),
         ("integrator.max_depth", 2, dict(integrator={"type": "path", "max_depth": 2})),
     ],
 )
@@ -56,12 +73,18 @@ def test_a_changed_value_is_that_of_another_dict(path, value, parts):
 def test_changes_add_up_and_shared_objects_stay_shared():
     clay = {"type": "diffuse", "reflectance": {"type": "rgb", "value": [0.7, 0.3, 0.2]}}
     ref = {"type": "ref", "id": "clay"}
-    base = et.load_dict(scene(clay=clay, ball=ball(bsdf=ref), other={"type": "cube", "to_world": T().scale(0.3), "bsdf": ref}))
+    base = et.load_dict(
+        scene(clay=clay, ball=ball(bsdf=ref), other={"type": "cube", "to_world": T().scale(0.3), "bsdf": ref})
+    )
     assert [key for key in base.values() if "reflectance" in key] == ["clay.reflectance"]
     step = base.with_values({"clay.reflectance": [0.1, 0.1, 0.8]}).with_values({"ball.radius": 0.4})
     final = step.with_values({"ball.radius": 0.6})
     clay = {"type": "diffuse", "reflectance": {"type": "rgb", "value": [0.1, 0.1, 0.8]}}
-    same = et.load_dict(scene(clay=clay, ball=ball(radius=0.6, bsdf=ref), other={"type": "cube", "to_world": T().scale(0.3), "bsdf": ref}))
+    same = et.load_dict(
+        scene(
+            clay=clay, ball=ball(radius=0.6, bsdf=ref), other={"type": "cube", "to_world": T().scale(0.3), "bsdf": ref}
+        )
+    )
     assert np.array_equal(pixels(final), pixels(same))
     hashes = [et.render(one, spp=1).metadata["scene_hash"] for one in (base, step, final)]
     assert len(set(hashes)) == 3
@@ -109,16 +132,14 @@ def test_every_language_has_values(tmp_path):
     more = '<shape type="sphere"><float name="radius" value="0.3"/><point name="center" value="1, 0, 0"/></shape>'
     assert np.array_equal(pixels(moved), pixels(et.load_string(scene_xml(second=more))))
     pbrt = tmp_path / "a.pbrt"
-    pbrt.write_text(
-        """LookAt 0 -4 1  0 0 0  0 0 1
+    pbrt.write_text("""LookAt 0 -4 1  0 0 0  0 0 1
         Camera "perspective" "float fov" 40
         Film "rgb" "integer xresolution" 8 "integer yresolution" 6
         WorldBegin
         LightSource "infinite" "rgb L" [0.5 0.6 0.9]
         Material "diffuse" "rgb reflectance" [0.1 0.7 0.2]
         Shape "sphere" "float radius" RADIUS
-        """.replace("RADIUS", "0.9")
-    )
+        """.replace("RADIUS", "0.9"))
     base = et.load_file(pbrt)
     (radius,) = [key for key in base.values() if key.endswith(".radius") and base.values()[key] == 0.9]
     small = base.with_values({radius: 0.5})

@@ -36,11 +36,12 @@ pub(super) fn value(value: &Bound<'_, PyAny>, key: &str) -> PyResult<Result<Writ
     if let Ok(transform) = value.extract::<PyRef<'_, Transform>>() {
         return Ok(Ok(Written::Matrix(rows(&transform.0))));
     }
-    if let Ok(matrix) = value.getattr("matrix") {
-        return Ok(transform(&matrix, key));
-    }
     let Some((shape, numbers)) = array(value) else {
-        return Ok(Err(format!("{} can be no value of a scene", named(value))));
+        // As Mitsuba's transforms have it.
+        return Ok(match value.getattr("matrix") {
+            Ok(matrix) => transform(&matrix, key),
+            Err(_) => Err(format!("{} can be no value of a scene", named(value))),
+        });
     };
     Ok(match (&shape[..], &numbers[..]) {
         ([3], _) if is_colour(value) => Ok(Written::Attribute("rgb", list(&numbers))),
