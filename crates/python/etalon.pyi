@@ -160,6 +160,7 @@ def load_dict(dict: Dict[str, Any]) -> Scene:
       wavelength (nm) and value, or with a `filename`.
     - Three numbers are a point or vector; a `Transform`, 4 × 4 numbers or an object with such a `matrix` a transform;
       for `to_uv` also 3 × 3. Strings and paths are strings. Nothing is a `$parameter`.
+    - {'type': 'animation', 'keys': [(time, value), …]}, possibly with an `interpolation`, is a value that changes.
     - {'type': 'resources', 'path': …} is a folder to look for files in; they are also looked for in the current one.
 
     Arrays, which are copied:

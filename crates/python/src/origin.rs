@@ -6,7 +6,7 @@ use etalon_formats::{ReadOutcome, mitsuba};
 use etalon_params::Diagnostic;
 use etalon_render::pipeline::{self, LoadError, LoadOptions, Loaded};
 use etalon_render::scene_hash;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
@@ -46,10 +46,14 @@ impl Origin {
 
     /// The same with further changes.
     pub(crate) fn with(&self, changes: Vec<Change>) -> Self {
-        let is_old = |path: &str| changes.iter().all(|(changed, _)| changed != path);
-        let old = self.changes.iter().filter(|(path, _)| is_old(path));
+        let paths: HashSet<&str> = changes.iter().map(|(path, _)| path.as_str()).collect();
+        let old = self.changes.iter();
+        let old = old.filter(|(path, _)| !paths.contains(path.as_str()));
+        let mut changes: Vec<Change> = old.chain(&changes).cloned().collect();
+        // The same changes are the same scene, however they came about.
+        changes.sort_by(|a, b| a.0.cmp(&b.0));
         Self {
-            changes: old.cloned().chain(changes.iter().cloned()).collect(),
+            changes,
             ..self.clone()
         }
     }

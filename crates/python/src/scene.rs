@@ -157,7 +157,8 @@ pub(crate) fn load_string(
 /// dict: {'type': 'scene', …}. Its keys are names: a dict within is an object with the plugin of its `type`; {'type': 'ref',
 /// 'id': …} is another object, by its `id`, its key or its path of keys; {'type': 'rgb', 'value': [r, g, b]} and
 /// {'type': 'spectrum', 'value': a number or pairs (nm, value)} are colours; three numbers are a point or vector; a
-/// `Transform` or 4 × 4 numbers are a transform. Relative files are looked for in the current folder.
+/// `Transform` or 4 × 4 numbers are a transform; {'type': 'animation', 'keys': pairs (time, value)} changes in time.
+/// Relative files are looked for in the current folder.
 ///
 /// Arrays, which are copied: `data` of a `bitmap` or `envmap` is height × width, or × 1, 3 or 4 channels, floats (linear) or
 /// uint8 (sRGB unless `raw`); `data` of a `gridvolume` or `sdfgrid` is z × y × x, or × 1, 3 or 6 channels; a `mesh` has

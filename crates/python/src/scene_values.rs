@@ -12,6 +12,7 @@ pub(crate) type Change = (String, Value);
 /// The objects of a scene, each under its shortest path.
 pub(crate) struct Listing<'a> {
     objects: Vec<(String, &'a Arc<Node>)>,
+    by_path: HashMap<String, &'a Arc<Node>>,
 }
 
 impl<'a> Listing<'a> {
@@ -41,14 +42,15 @@ impl<'a> Listing<'a> {
             }
             objects.push((path, node));
         }
-        Self { objects }
+        Self {
+            by_path: objects.iter().cloned().collect(),
+            objects,
+        }
     }
 
     /// The object at a path.
     pub(crate) fn object(&self, path: &str) -> Option<&'a Arc<Node>> {
-        let mut objects = self.objects.iter();
-        let found = objects.find(|(known, _)| known == path);
-        found.map(|(_, node)| *node)
+        self.by_path.get(path).copied()
     }
 
     /// The paths of all objects but the scene.

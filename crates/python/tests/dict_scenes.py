@@ -181,13 +181,9 @@ PAIRS = {
                 }
             )
         ),
-        dict(
-            ball=ball_xml(
-                """<bsdf type="principled"><rgb name="base_color" value="1, 0.5, 0"/>
+        dict(ball=ball_xml("""<bsdf type="principled"><rgb name="base_color" value="1, 0.5, 0"/>
                   <float name="metallic" value="0.7"/>
-                  <float name="roughness" value="0.4"/></bsdf>"""
-            )
-        ),
+                  <float name="roughness" value="0.4"/></bsdf>""")),
     ),
     "blend of two sides": (
         dict(
@@ -259,13 +255,9 @@ PAIRS = {
     ),
     "area light": (
         dict(ball=ball(emitter={"type": "area", "radiance": {"type": "blackbody", "temperature": 3000}})),
-        dict(
-            ball=ball_xml(
-                """<emitter type="area"><spectrum type="blackbody" name="radiance">
+        dict(ball=ball_xml("""<emitter type="area"><spectrum type="blackbody" name="radiance">
                   <float name="temperature" value="3000"/>
-                  </spectrum></emitter>"""
-            )
-        ),
+                  </spectrum></emitter>""")),
     ),
     "spot": (
         dict(
@@ -276,19 +268,15 @@ PAIRS = {
                 "intensity": {"type": "d65", "scale": 40},
             }
         ),
-        dict(
-            lamp="""<emitter type="spot">
+        dict(lamp="""<emitter type="spot">
               <transform name="to_world"><lookat origin="1, -2, 3" target="0, 0, 0"/></transform>
               <float name="cutoff_angle" value="15"/>
-              <spectrum type="d65" name="intensity"><float name="scale" value="40"/></spectrum></emitter>"""
-        ),
+              <spectrum type="d65" name="intensity"><float name="scale" value="40"/></spectrum></emitter>"""),
     ),
     "directional": (
         dict(lamp={"type": "directional", "direction": [1, 1, -1], "irradiance": {"type": "rgb", "value": 2}}),
-        dict(
-            lamp="""<emitter type="directional"><vector name="direction" value="1, 1, -1"/>
-              <rgb name="irradiance" value="2"/></emitter>"""
-        ),
+        dict(lamp="""<emitter type="directional"><vector name="direction" value="1, 1, -1"/>
+              <rgb name="irradiance" value="2"/></emitter>"""),
     ),
     "sky": (
         dict(light={"type": "sunsky", "turbidity": 4.5, "sun_scale": 0, "to_world": T().rotate([1, 0, 0], 90)}),
@@ -362,14 +350,12 @@ PAIRS = {
                 "sampler": {"type": "independent", "sample_count": 2, "seed": 5},
             }
         ),
-        dict(
-            sensor=f"""<sensor type="perspective"><float name="fov" value="40"/>{LOOK_XML}<film type="hdrfilm">
+        dict(sensor=f"""<sensor type="perspective"><float name="fov" value="40"/>{LOOK_XML}<film type="hdrfilm">
               <integer name="width" value="5"/><integer name="height" value="7"/>
               <string name="pixel_format" value="rgba"/>
               <rfilter type="gaussian"><float name="stddev" value="0.4"/></rfilter></film>
               <sampler type="independent"><integer name="sample_count" value="2"/><integer name="seed" value="5"/></sampler>
-              </sensor>"""
-        ),
+              </sensor>"""),
     ),
     "direct light": (
         dict(integrator={"type": "direct", "emitter_samples": 2, "bsdf_samples": 1}),
@@ -382,6 +368,23 @@ PAIRS = {
               <integrator type="path" name="img"><integer name="max_depth" value="2"/></integrator></integrator>"""),
     ),
     "ambient occlusion": (dict(integrator={"type": "ao"}), dict(integrator='<integrator type="ao"/>')),
+    "motion": (
+        dict(
+            ball=ball(to_world={"type": "animation", "keys": [(0, T()), (1.0, T().translate([1, 0, 0]))]}),
+            light={
+                "type": "constant",
+                "radiance": {"type": "animation", "keys": [(0, {"type": "rgb", "value": [1, 0, 0]})]},
+            },
+        ),
+        dict(
+            ball=ball_xml(
+                """<animation name="to_world"><transform time="0"/><transform time="1"><translate x="1"/></transform>
+                  </animation>"""
+            ),
+            light="""<emitter type="constant"><animation name="radiance"><rgb time="0" value="1, 0, 0"/></animation>
+              </emitter>""",
+        ),
+    ),
     "subsurface": (
         dict(
             integrator={"type": "volpath"},

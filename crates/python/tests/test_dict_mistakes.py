@@ -103,6 +103,26 @@ BAD = {
     ),
     "infinite vertex": (scene(ball={**MESH, "vertices": np.full((3, 3), np.inf)}), "ball.vertices", "not finite"),
     "mesh without faces": (scene(ball={"type": "mesh", "vertices": MESH["vertices"]}), "ball.faces", "a mesh needs"),
+    "no pairs in an animation": (
+        scene(ball=ball(to_world={"type": "animation", "keys": [1, 2]})),
+        "ball.to_world.keys",
+        "pairs (time, value)",
+    ),
+    "object in an animation": (
+        scene(ball=ball(radius={"type": "animation", "keys": [(0, {"type": "sphere"})]})),
+        "ball.radius",
+        "the values of an animation are no objects",
+    ),
+    "times that descend": (
+        scene(ball=ball(radius={"type": "animation", "keys": [(1, 0.5), (0, 0.6)]})),
+        "ball.radius",
+        "the time of a key must be after",
+    ),
+    "misspelt key of an animation": (
+        scene(ball=ball(radius={"type": "animation", "key": [(1, 0.5)]})),
+        "ball.radius.key",
+        "an animation has `keys`",
+    ),
     "no scene": ({"type": "sphere"}, "type", "the outermost dict is a scene"),
     "nothing": ({}, "", "the empty dict has no `type`"),
 }

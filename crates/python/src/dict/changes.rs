@@ -11,6 +11,7 @@ use etalon_params::{Class, Diagnostic, Value};
 use etalon_render::pipeline::LoadError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::collections::BTreeMap;
 
 /// The changes in a dict from paths of keys to values, for a scene with these objects.
 pub(crate) fn read(dict: &Bound<'_, PyDict>, scene: &Listing<'_>) -> PyResult<Vec<Change>> {
@@ -22,7 +23,7 @@ pub(crate) fn read(dict: &Bound<'_, PyDict>, scene: &Listing<'_>) -> PyResult<Ve
         id: None,
         entries,
     };
-    let mut objects: Vec<(String, Vec<(String, Entry<'_>)>)> = Vec::new();
+    let mut objects: BTreeMap<String, Vec<(String, Entry<'_>)>> = BTreeMap::new();
     for (path, value) in dict.iter() {
         let path: String = path.extract()?;
         let Some((object, key)) = split(&path) else {
@@ -65,11 +66,8 @@ pub(crate) fn read(dict: &Bound<'_, PyDict>, scene: &Listing<'_>) -> PyResult<Ve
             }
             _ => Entry::Value(value),
         };
-        let entry = (key.to_owned(), entry);
-        match objects.iter_mut().find(|(known, _)| known == object) {
-            Some((_, entries)) => entries.push(entry),
-            None => objects.push((object.to_owned(), vec![entry])),
-        }
+        let entries = objects.entry(object.to_owned()).or_default();
+        entries.push((key.to_owned(), entry));
     }
     mistakes.raise()?;
     let objects = objects.into_iter().map(|(path, entries)| {

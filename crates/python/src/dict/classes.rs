@@ -48,7 +48,15 @@ pub(super) fn class(name: &str, has_filename: bool) -> Option<Class> {
 
 /// The message about a name that no class has.
 pub(super) fn unknown(name: &str) -> Diagnostic {
-    let others = ["scene", "rgb", "spectrum", "ref", "mesh", "resources"];
+    let others = [
+        "scene",
+        "rgb",
+        "spectrum",
+        "ref",
+        "mesh",
+        "resources",
+        "animation",
+    ];
     let names = || built().keys().copied().chain(others);
     let near = plugins::called_otherwise(name).or_else(|| suggest::nearest(name, names()));
     let diagnostic = Diagnostic::error_nowhere(format!("there is no plugin `{name}`"));

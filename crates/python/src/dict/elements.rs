@@ -2,11 +2,12 @@
 
 use super::arrays::{self, Kind};
 use super::mistakes::Mistakes;
-use super::tree::{Entry, Ids, Object};
+use super::tree::{self, Entry, Ids, Object};
 use super::{Keys, NAME, SceneDict, classes, mesh, values};
 use etalon_formats::embedded_name;
 use etalon_formats::mitsuba::{self, SceneInMemory};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use std::fmt::Display;
 use std::sync::Arc;
 
@@ -52,10 +53,10 @@ impl<'a, 'py> Elements<'a, 'py> {
             match entry {
                 // Colours in a scene are there to be referred to, and are written where they are.
                 Entry::Object(object) if object.is_colour() => {
-                    self.colour(object, &path, key);
+                    self.colour(object, &path, ("name", key));
                 }
                 Entry::Object(object) => self.object(object, &path, key, 1)?,
-                Entry::Value(value) => self.value(value, &path, key, 1)?,
+                Entry::Value(value) => self.value(value, &path, ("name", key), 1)?,
             }
         }
         self.line("", 0, "</scene>");
@@ -78,7 +79,7 @@ impl<'a, 'py> Elements<'a, 'py> {
         depth: usize,
     ) -> PyResult<()> {
         if object.is_colour() {
-            let element = self.colour(object, path, key);
+            let element = self.colour(object, path, ("name", key));
             element.inspect(|element| self.line(path, depth, element));
             return Ok(());
         }
@@ -94,13 +95,18 @@ impl<'a, 'py> Elements<'a, 'py> {
                     }
                 }
             }
+            "animation" => return self.animation(object, path, key, depth),
             _ => return self.plugin(object, path, key, depth),
         }
         Ok(())
     }
 
     /// The only entry that an object has, which is a value of one of these keys.
-    fn only(&mut self, object: &'a Object<'py>, keys: &[&str]) -> Option<&'a Bound<'py, PyAny>> {
+    fn only<'o>(
+        &mut self,
+        object: &'o Object<'py>,
+        keys: &[&str],
+    ) -> Option<&'o Bound<'py, PyAny>> {
         match &object.entries[..] {
             [(key, Entry::Value(value))] if keys.contains(&key.as_str()) => Some(value),
             entries => {
@@ -120,7 +126,7 @@ impl<'a, 'py> Elements<'a, 'py> {
     }
 
     /// The element of an `rgb` or a `spectrum`, unless it has a mistake.
-    fn colour(&mut self, object: &'a Object<'py>, path: &str, key: &str) -> Option<String> {
+    fn colour(&mut self, object: &Object<'py>, path: &str, label: Label<'_>) -> Option<String> {
         let is_rgb = object.kind == "rgb";
         let keys: &[&str] = if is_rgb {
             &["value"]
@@ -133,14 +139,14 @@ impl<'a, 'py> Elements<'a, 'py> {
             if file.is_none() {
                 self.mistakes.add(path, "`filename` is a string or a path");
             }
-            return file.map(|file| element("spectrum", &[("name", key), ("filename", &file)]));
+            return file.map(|file| element("spectrum", &[label, ("filename", &file)]));
         }
         let written = match is_rgb {
             true => values::rgb(value),
             false => values::spectrum(value),
         };
         match written {
-            Ok(text) => Some(element(&object.kind, &[("name", key), ("value", &text)])),
+            Ok(text) => Some(element(&object.kind, &[label, ("value", &text)])),
             Err(reason) => {
                 self.mistakes
                     .add(path, format!("the value of `{}` {reason}", object.kind));
@@ -160,7 +166,7 @@ impl<'a, 'py> Elements<'a, 'py> {
         };
         let found = self.ids.find(id);
         if let Some(colour) = found.filter(|found| found.is_colour()) {
-            let element = self.colour(colour, path, key);
+            let element = self.colour(colour, path, ("name", key));
             element.inspect(|element| self.line(path, depth, element));
             return;
         }
@@ -206,7 +212,7 @@ impl<'a, 'py> Elements<'a, 'py> {
                         Ok(file) => self.file(file, &path, depth + 1),
                         Err(reason) => self.mistakes.add(&path, reason),
                     },
-                    None => self.value(value, &path, key, depth + 1)?,
+                    None => self.value(value, &path, ("name", key), depth + 1)?,
                 },
                 Entry::Object(object) => self.object(object, &path, key, depth + 1)?,
             }
@@ -238,31 +244,82 @@ impl<'a, 'py> Elements<'a, 'py> {
         &mut self,
         value: &Bound<'py, PyAny>,
         path: &str,
-        key: &str,
+        label: Label<'_>,
         depth: usize,
     ) -> PyResult<()> {
-        match values::value(value, key)? {
+        match values::value(value, label == ("name", "to_uv"))? {
             Ok(values::Written::Attribute(tag, text)) => {
-                self.line(
-                    path,
-                    depth,
-                    &element(tag, &[("name", key), ("value", &text)]),
-                );
+                self.line(path, depth, &element(tag, &[label, ("value", &text)]));
             }
             Ok(values::Written::Matrix(numbers)) => {
-                let name = attribute("name", key);
+                let label = attribute(label.0, label.1);
                 let matrix = element("matrix", &[("value", &numbers)]);
-                self.line(
-                    path,
-                    depth,
-                    &format!("<transform{name}>{matrix}</transform>"),
-                );
+                let transform = format!("<transform{label}>{matrix}</transform>");
+                self.line(path, depth, &transform);
             }
             Err(reason) => self.mistakes.add(path, reason),
         }
         Ok(())
     }
+
+    /// An `animation`: `keys` are pairs of a time and a value, as `interpolation` says between.
+    fn animation(
+        &mut self,
+        object: &Object<'py>,
+        path: &str,
+        key: &str,
+        depth: usize,
+    ) -> PyResult<()> {
+        let mut attributes = vec![("name", key.to_owned())];
+        let mut keys = None;
+        for (key, entry) in &object.entries {
+            let path = object.path_of(key);
+            match (key.as_str(), entry) {
+                ("keys", Entry::Value(value)) => {
+                    let pairs = value.extract::<Vec<(f64, Bound<'py, PyAny>)>>();
+                    let wrong = "the keys of an animation are pairs (time, value)";
+                    keys = pairs.map_err(|_| self.mistakes.add(&path, wrong)).ok();
+                }
+                ("interpolation", Entry::Value(value)) => match values::text(value)? {
+                    Some(text) => attributes.push(("interpolation", text)),
+                    None => self.mistakes.add(&path, "it is a string"),
+                },
+                _ => {
+                    let message =
+                        "an animation has `keys` and an `interpolation`, and nothing else";
+                    self.mistakes.add(&path, message);
+                }
+            }
+        }
+        let start = element("animation", &attributes).replace("/>", ">");
+        self.line(path, depth, &start);
+        for (time, value) in keys.unwrap_or_default() {
+            let time = format!("{time:?}");
+            let label = ("time", time.as_str());
+            match value.cast::<PyDict>() {
+                Ok(dict) => {
+                    let (path, open) = (path.to_owned(), &mut Vec::new());
+                    let read = tree::read(dict, path.clone(), open, &mut self.mistakes)?;
+                    let element = match read {
+                        Some(colour) if colour.is_colour() => self.colour(&colour, &path, label),
+                        _ => {
+                            let message = "the values of an animation are no objects";
+                            self.mistakes.add(&path, message);
+                            None
+                        }
+                    };
+                    element.inspect(|element| self.line(&path, depth + 1, element));
+                }
+                Err(_) => self.value(&value, path, label, depth + 1)?,
+            }
+        }
+        self.line(path, depth, "</animation>");
+        Ok(())
+    }
 }
+
+/// The attribute that says what a value is for: its `name`, or in an animation its `time`.
+type Label<'k> = (&'static str, &'k str);
 
 fn element(tag: &str, attributes: &[(&str, impl Display)]) -> String {
     let attributes = attributes.iter();

@@ -18,8 +18,11 @@ pub(super) enum Written {
 /// What is wrong with a value: a sentence without the key.
 pub(super) type Refusal = String;
 
-/// The value of a property, or why nothing can have it.
-pub(super) fn value(value: &Bound<'_, PyAny>, key: &str) -> PyResult<Result<Written, Refusal>> {
+/// The value of a property, or why nothing can have it; `is_plane`: whether a transform may be one of the plane.
+pub(super) fn value(
+    value: &Bound<'_, PyAny>,
+    is_plane: bool,
+) -> PyResult<Result<Written, Refusal>> {
     let plain = |tag, text| Ok(Ok(Written::Attribute(tag, text)));
     if let Ok(truth) = value.extract::<bool>() {
         return plain("boolean", truth.to_string());
@@ -39,14 +42,14 @@ pub(super) fn value(value: &Bound<'_, PyAny>, key: &str) -> PyResult<Result<Writ
     let Some((shape, numbers)) = array(value) else {
         // As Mitsuba's transforms have it.
         return Ok(match value.getattr("matrix") {
-            Ok(matrix) => transform(&matrix, key),
+            Ok(matrix) => transform(&matrix, is_plane),
             Err(_) => Err(format!("{} can be no value of a scene", named(value))),
         });
     };
     Ok(match (&shape[..], &numbers[..]) {
         ([3], _) if is_colour(value) => Ok(Written::Attribute("rgb", list(&numbers))),
         ([3], _) => Ok(Written::Attribute("vector", list(&numbers))),
-        ([3, 3] | [4, 4], _) => transform(value, key),
+        ([3, 3] | [4, 4], _) => transform(value, is_plane),
         _ => Err(format!(
             "an array of {} can be no value of a scene: points and vectors have 3 numbers, transforms 4 × 4",
             sizes(&shape)
@@ -155,12 +158,12 @@ pub(super) fn shape(value: &Bound<'_, PyAny>) -> Option<Vec<usize>> {
 }
 
 /// A transform of 4 × 4 numbers or, for textures, of 3 × 3.
-fn transform(value: &Bound<'_, PyAny>, key: &str) -> Result<Written, Refusal> {
+fn transform(value: &Bound<'_, PyAny>, is_plane: bool) -> Result<Written, Refusal> {
     let (shape, n) = array(value).unwrap_or_default();
     match &shape[..] {
         [4, 4] => Ok(Written::Matrix(list(&n))),
         // A map of the plane: z does not matter.
-        [3, 3] if key == "to_uv" => {
+        [3, 3] if is_plane => {
             let [a, b, x, c, d, y, e, f, w] = core::array::from_fn(|i| n[i]);
             let rows = [a, b, 0.0, x, c, d, 0.0, y, 0.0, 0.0, 1.0, 0.0, e, f, 0.0, w];
             Ok(Written::Matrix(list(&rows)))
