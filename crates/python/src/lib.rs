@@ -1,7 +1,7 @@
 //! The Python module `etalon`: a thin layer around `etalon_render`, which gives the same bits as the binary.
 //!
-//! A `Scene` is rendered by `render` to an `Image`, and images are judged by `compare`. The types that Python's tools
-//! see are in `etalon.pyi`.
+//! A `Scene` is read from a file, a text or a `dict`, rendered by `render` to an `Image`, and images are judged by `compare`.
+//! The types that Python's tools see are in `etalon.pyi`.
 
 mod comparison;
 mod dict;

@@ -114,3 +114,13 @@ def test_objects_of_mitsuba_are_understood():
     assert np.array_equal(colour, pixels(et.load_dict(named)))
     with pytest.raises(et.SceneError, match="ball.to_world: error: a transform has 4 × 4 numbers, not 2 × 2"):
         et.load_dict(scene(ball=ball(to_world=Mitsubas([[1, 0], [0, 1]]))))
+
+
+def test_an_id_beats_a_key():
+    clay, chalk = ({"type": "diffuse", "reflectance": {"type": "rgb", "value": grey}} for grey in (0.1, 0.9))
+    parts = dict(clay={**clay, "id": "chalk"}, chalk=chalk, ball=ball(bsdf={"type": "ref", "id": "chalk"}))
+    by_key = dict(clay=clay, ball=ball(bsdf={"type": "ref", "id": "clay"}))
+    assert np.array_equal(pixels(et.load_dict(scene(**parts))), pixels(et.load_dict(scene(**by_key))))
+    # With an `id` it is also known by its key.
+    parts["ball"]["bsdf"]["id"] = "clay"
+    assert np.array_equal(pixels(et.load_dict(scene(**parts))), pixels(et.load_dict(scene(**by_key))))
