@@ -11,7 +11,10 @@ __all__ = [
     "Image",
     "Scene",
     "SceneError",
+    "Transform",
     "compare",
+    "dict_to_xml",
+    "load_dict",
     "load_file",
     "load_string",
     "read",
@@ -21,23 +24,27 @@ __all__ = [
 _Path = Union[str, os.PathLike[str]]
 
 class _Diagnostic(TypedDict):
-    """A message about a scene; line and column count from 1, None where it has no place."""
+    """A message about a scene; line and column count from 1, None where it has no place.
+
+    `key` is the path of keys in a dict, such as 'cube.bsdf.reflectance'; line and column are then those of `dict_to_xml`.
+    """
 
     severity: Literal["error", "note"]
     message: str
     help: Optional[str]
+    key: Optional[str]
     file: Optional[str]
     line: Optional[int]
     column: Optional[int]
 
 class SceneError(ValueError):
-    """A scene has mistakes; the message has a line `file:line:column: error: …` for each."""
+    """A scene has mistakes; the message has a line `file:line:column: error: …` or `key.path: error: …` for each."""
 
     diagnostics: List[_Diagnostic]
 
 @final
 class Scene:
-    """A scene that is ready to be rendered, as made by `load_file` and `load_string`."""
+    """A scene that is ready to be rendered, as made by `load_file`, `load_string` and `load_dict`."""
 
     @property
     def integrator(self) -> str:
@@ -47,10 +54,24 @@ class Scene:
         """Width and height of what is rendered (pixels)."""
     @property
     def notes(self) -> List[str]:
-        """Remarks about the scene that do not prevent rendering, each `file:line:column: note: …`."""
+        """Remarks about the scene that do not prevent rendering, each `file:line:column: note: …` or `key.path: note: …`."""
     @property
     def parameters(self) -> Dict[str, str]:
         """The scene's `$parameters` with the values that count, as texts, in the order of the file."""
+    def values(self) -> Dict[str, Any]:
+        """The values of the scene's plugins, by paths of keys such as 'ball.bsdf.reflectance', as far as they are given.
+
+        A key is a name, or else an `id`, or else a type ('sphere', 'sphere_2', …); an object that several others share has
+        its shortest path. Numbers, texts, and arrays: 3 for points, vectors and colours, n × 2 for spectra (nm, value),
+        4 × 4 for transforms. Names of files and animations are left out.
+        """
+    def with_values(self, values: Dict[str, Any]) -> Scene:
+        """The scene with other values: by paths as in `values()`, or of parameters that are not given yet.
+
+        This scene stays as it is. What is read for the first change, files included, stays in memory for further ones.
+        A value is as in `load_dict`; three numbers in place of a colour, number or texture are a colour.
+        Raises SceneError with every mistake, each with its path.
+        """
 
 @final
 class Image:
@@ -129,6 +150,60 @@ def load_file(path: _Path, **defines: object) -> Scene:
 
 def load_string(xml: str, **defines: object) -> Scene:
     """Reads a scene from a text of Mitsuba's XML; relative files are looked for in the current folder."""
+
+def load_dict(dict: Dict[str, Any]) -> Scene:
+    """Reads a scene from a dict in Mitsuba 3's manner: {'type': 'scene', …}.
+
+    Its keys are names; a dict within is an object with the plugin of its `type`.
+    - {'type': 'ref', 'id': …} is another object, by its `id`, its key or its path of keys ('ball.bsdf').
+    - {'type': 'rgb', 'value': [r, g, b]} or of one number; {'type': 'spectrum', 'value': …} of a number or pairs of
+      wavelength (nm) and value, or with a `filename`.
+    - Three numbers are a point or vector; a `Transform`, 4 × 4 numbers or an object with such a `matrix` a transform;
+      for `to_uv` also 3 × 3. Strings and paths are strings. Nothing is a `$parameter`.
+    - {'type': 'animation', 'keys': [(time, value), …]}, possibly with an `interpolation`, is a value that changes.
+    - {'type': 'resources', 'path': …} is a folder to look for files in; they are also looked for in the current one.
+
+    Arrays, which are copied:
+    - `data` (or `bitmap`) of a `bitmap`, `envmap`, `goniometric` or `heightfield`: height × width, or × 1, 3 or 4
+      channels, top row first; floats are linear, uint8 is sRGB unless `raw`.
+    - `data` (or `grid`) of a `gridvolume` or `sdfgrid`: z × y × x, or × 1, 3 or 6 channels.
+    - {'type': 'mesh'}: `vertices` N × 3 (m), `faces` M × 3 (indices from 0), and possibly `normals` N × 3, `uv` N × 2 and
+      attributes `vertex_…` or `face_…` of one or three numbers each; `vertex_positions`, `vertex_normals` and
+      `vertex_texcoords` are other names. All may be flat.
+
+    Raises SceneError with every mistake in it, each with its path of keys.
+    """
+
+def dict_to_xml(dict: Dict[str, Any]) -> str:
+    """The text of Mitsuba's XML that a dict stands for.
+
+    Raises SceneError if it has arrays, which no text can hold, or values that cannot be written.
+    """
+
+@final
+class Transform:
+    """An affine transform, which acts on columns: `a @ b` is b and then a.
+
+    Transform() is the identity; its methods multiply from the right, as Mitsuba's:
+    `Transform().translate([0, 0, 1]).rotate([0, 0, 1], 45)` rotates first.
+    """
+
+    def __new__(cls, matrix: Optional[ArrayLike] = None) -> Transform: ...
+    def translate(self, vector: ArrayLike) -> Transform:
+        """Moves by three numbers (m)."""
+    def scale(self, factors: ArrayLike) -> Transform:
+        """Scales by one factor, or by one along each axis."""
+    def rotate(self, axis: ArrayLike, angle: float) -> Transform:
+        """Rotates about an axis by an angle (°), counter-clockwise seen against it."""
+    def look_at(self, origin: ArrayLike, target: ArrayLike, up: Optional[ArrayLike] = None) -> Transform:
+        """The frame of a camera or shape at `origin` whose +z looks at `target`, with +y on the side of `up`."""
+    def inverse(self) -> Transform:
+        """The transform that undoes it."""
+    @property
+    def matrix(self) -> NDArray[np.float64]:
+        """4 × 4."""
+    def __matmul__(self, other: Transform, /) -> Transform: ...
+    def __rmatmul__(self, other: Transform, /) -> Transform: ...
 
 def render(
     scene: Scene,

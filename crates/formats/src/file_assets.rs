@@ -3,7 +3,7 @@
 use crate::document::{Document, embedded_name, mesh_name};
 use crate::{SearchPath, gzip, obj, open_bounded, ply, read_bounded, serialized};
 use etalon_transport::{AssetError, Assets, MeshData, MeshFormat, OpenFile, in_memory};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, Weak};
@@ -37,7 +37,8 @@ struct State {
     shared: HashMap<PathBuf, Weak<Vec<u8>>>,
     kept: HashMap<PathBuf, Arc<Vec<u8>>>,
     kept_bytes: usize,
-    used: BTreeSet<PathBuf>,
+    /// The files that were found, by the names that they were asked for.
+    used: BTreeMap<String, PathBuf>,
 }
 
 impl FileAssets {
@@ -78,7 +79,28 @@ impl FileAssets {
 
     /// The files that were found and read so far, sorted.
     pub fn used(&self) -> Vec<PathBuf> {
-        self.state().used.iter().cloned().collect()
+        let used: BTreeSet<PathBuf> = self.state().used.values().cloned().collect();
+        used.into_iter().collect()
+    }
+
+    /// The contents of all files that were found so far, by the names that they were asked for.
+    ///
+    /// # Errors
+    /// If one cannot be read any more.
+    pub fn contents(&self) -> Result<HashMap<String, Arc<Vec<u8>>>, AssetError> {
+        let used = self.state().used.clone();
+        let found = used.into_iter().map(|(name, path)| {
+            let bytes = self.read(&name, &path)?;
+            Ok((name, Arc::new(bytes)))
+        });
+        let within = self.embedded.clone();
+        within.into_iter().map(Ok).chain(found).collect()
+    }
+
+    /// Has these contents for these names, whatever is in files.
+    pub fn holding(mut self, contents: HashMap<String, Arc<Vec<u8>>>) -> Self {
+        self.embedded.extend(contents);
+        self
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -90,14 +112,13 @@ impl FileAssets {
             message: format!("the file `{name}` was not found"),
             help: Some(self.search.why_not(name)),
         })?;
-        self.state().used.insert(path.clone());
+        self.state().used.insert(name.to_owned(), path.clone());
         Ok(path)
     }
 
     /// One mesh of a file that may hold thousands: no more of it is read than that.
-    fn serialized(&self, name: &str, path: &Path, index: u32) -> Result<MeshData, AssetError> {
-        let mut file =
-            open_bounded(path, self.limit).map_err(|reason| unreadable(name, &reason))?;
+    fn serialized(&self, name: &str, index: u32) -> Result<MeshData, AssetError> {
+        let mut file = self.open(name)?;
         let mesh = serialized::read(&mut file, index);
         mesh.map_err(|error| {
             let mut head = [0; 4];
@@ -153,11 +174,13 @@ impl Assets for FileAssets {
         if let Some(mesh) = self.meshes.get(name) {
             return Ok((**mesh).clone());
         }
-        let path = self.find(name)?;
         if let MeshFormat::Serialized { shape_index } = format {
-            return self.serialized(name, &path, shape_index);
+            return self.serialized(name, shape_index);
         }
-        let bytes = self.read(name, &path)?;
+        let bytes = match self.embedded.get(name) {
+            Some(bytes) => bytes.to_vec(),
+            None => self.read(name, &self.find(name)?)?,
+        };
         // pbrt's scenes have compressed PLY files.
         let bytes = gzip::plain(bytes, self.limit).map_err(|reason| unreadable(name, &reason))?;
         let mesh = match format {
@@ -231,6 +254,57 @@ mod tests {
         let (_folder, assets) = folder();
         let mesh = assets.mesh(MeshFormat::Obj, "a.obj").expect("read");
         assert_eq!(mesh.triangles, [[0, 1, 2]]);
+    }
+
+    #[test]
+    fn contents_stand_for_files() {
+        let (folder, assets) = folder();
+        let mesh = assets.mesh(MeshFormat::Obj, "a.obj").expect("read");
+        assets.bytes("small").expect("read");
+        let contents = assets.contents().expect("read again");
+        let mut names: Vec<&str> = contents.keys().map(String::as_str).collect();
+        names.sort_unstable();
+        assert_eq!(names, ["a.obj", "small"]);
+        drop(folder);
+        let held = FileAssets::default().holding(contents);
+        let again = held.mesh(MeshFormat::Obj, "a.obj").expect("held");
+        assert_eq!(again.positions, mesh.positions);
+        let mut text = String::new();
+        let mut file = held.open("small").expect("held");
+        file.read_to_string(&mut text).expect("text");
+        assert_eq!(text, "12345");
+        // Those that it holds are found again.
+        assert_eq!(held.contents().expect("held").len(), 2);
+        assert!(assets.contents().is_err());
+    }
+
+    #[test]
+    fn files_in_memory_belong_to_a_scene() {
+        let mesh = MeshData {
+            positions: vec![glam::Vec3::X, glam::Vec3::Y, glam::Vec3::Z],
+            triangles: vec![[0, 1, 2]],
+            ..MeshData::default()
+        };
+        let scene = crate::mitsuba::SceneInMemory {
+            name: "<here>".into(),
+            text: "<scene version=\"3.0.0\"/>".into(),
+            files: vec![Arc::new(b"12".to_vec()), Arc::new(ply::write(&mesh))],
+        };
+        let read = crate::mitsuba::read_in_memory(&scene, &crate::ReadOptions::default());
+        let document = read.sound().expect("no mistakes");
+        let named: Vec<_> = document.files.iter().map(|file| &file.bytes[..]).collect();
+        assert_eq!(named[..2], [scene.text.as_bytes(), b"12"]);
+        assert_eq!(document.files[2].path, PathBuf::from(embedded_name(1)));
+        let assets = FileAssets::of(document);
+        assert_eq!(**assets.bytes(&embedded_name(0)).expect("there"), *b"12");
+        let again = assets.mesh(MeshFormat::Ply, &embedded_name(1));
+        assert_eq!(again.expect("a mesh").positions, mesh.positions);
+        let wrong = assets.mesh(MeshFormat::Obj, &embedded_name(1));
+        let help = wrong.expect_err("not OBJ").help;
+        assert_eq!(
+            help.as_deref(),
+            Some("this is a PLY file: use the shape `ply`")
+        );
     }
 
     #[test]

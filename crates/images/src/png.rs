@@ -97,8 +97,27 @@ fn develop_colour(colour: &Colour<'_>, development: Development) -> (Vec<u8>, Lo
 /// [`io::ErrorKind::InvalidInput`] unless there are three bytes for each of the pixels, at
 /// least one.
 pub fn encode_rgb(bytes: &[u8], width: usize, height: usize) -> io::Result<Vec<u8>> {
+    encode_channels(bytes, [width, height], 3)
+}
+
+/// The same with 1 (grey), 2 (grey and alpha), 3 or 4 (with alpha) bytes per pixel.
+///
+/// # Errors
+/// [`io::ErrorKind::InvalidInput`] for another number of channels or bytes.
+pub fn encode_channels(
+    bytes: &[u8],
+    [width, height]: [usize; 2],
+    channels: usize,
+) -> io::Result<Vec<u8>> {
+    let colour = match channels {
+        1 => ExtendedColorType::L8,
+        2 => ExtendedColorType::La8,
+        4 => ExtendedColorType::Rgba8,
+        // Of others, the bytes do not match.
+        _ => ExtendedColorType::Rgb8,
+    };
     let mut file = Vec::new();
-    encode(&mut file, bytes, width, height, ExtendedColorType::Rgb8)?;
+    encode(&mut file, bytes, width, height, colour)?;
     Ok(file)
 }
 

@@ -24,6 +24,20 @@ fn is_openvdb(bytes: &[u8]) -> bool {
 }
 
 impl Volume {
+    /// The contents of a file that [`Self::decode`] reads.
+    pub fn encode(&self) -> Vec<u8> {
+        let mut bytes = b"VOL\x03".to_vec();
+        let [x, y, z] = self.size;
+        for word in [1, x, y, z, self.channels] {
+            bytes.extend((word as i32).to_le_bytes());
+        }
+        let corners = self.bounds.as_flattened();
+        for number in corners.iter().chain(&self.samples) {
+            bytes.extend(number.to_le_bytes());
+        }
+        bytes
+    }
+
     /// Reads a volume, or reports a mistake. Memory is allocated in proportion to the data, not by the header.
     pub fn decode(bytes: &[u8]) -> Result<Self, String> {
         let broken = |reason: String| Err(reason);
@@ -103,6 +117,7 @@ mod tests {
         assert_eq!((volume.size, volume.channels), ([2, 3, 4], 1));
         assert_eq!(volume.bounds, [[0.0; 3], [1.0, 2.0, 3.0]]);
         assert_eq!(volume.samples[23], 23.0);
+        assert_eq!(volume.encode(), file([2, 3, 4, 1], 24));
     }
 
     #[test]

@@ -297,6 +297,14 @@ fn png_for_people() {
     let picture = raster_file::read(&path).expect("reads");
     assert_eq!(picture.samples(), &Samples::U8(vec![118, 118, 118, 128]));
     assert!(png::encode_rgb(&[0; 5], 1, 1).is_err());
+    assert!(png::encode_channels(&[0; 5], [1, 1], 5).is_err());
+    for channels in 1..=4 {
+        let pixels: Vec<u8> = (0..2 * channels as u8).collect();
+        let file = png::encode_channels(&pixels, [2, 1], channels).expect("encodes");
+        let read = decode(&file);
+        assert_eq!(read.channels(), channels);
+        assert_eq!(read.samples(), &Samples::U8(pixels));
+    }
     assert_eq!(
         decode(&png::encode_rgb(&[1, 2, 3], 1, 1).expect("encodes")).width(),
         1

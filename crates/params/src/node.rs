@@ -180,6 +180,17 @@ impl Node {
         format!("{} `{name}`", if vowel { "an" } else { "a" })
     }
 
+    /// The same with these properties, in the same place.
+    pub fn with_properties(&self, properties: Vec<Property>) -> Self {
+        Self {
+            class: self.class,
+            plugin: self.plugin.clone(),
+            id: self.id.clone(),
+            span: self.span,
+            properties,
+        }
+    }
+
     /// The same with one property of another value; one that is not there is added where the plugin's name stands.
     pub fn with(&self, name: &str, value: Value) -> Self {
         let copied = |property: &Property| {
@@ -198,12 +209,6 @@ impl Node {
             let span = self.plugin.span;
             properties.push(Property::new(name, span, value.clone(), span));
         }
-        Self {
-            class: self.class,
-            plugin: self.plugin.clone(),
-            id: self.id.clone(),
-            span: self.span,
-            properties,
-        }
+        self.with_properties(properties)
     }
 }

@@ -160,7 +160,7 @@ fn instead_of_06(class: Class, name: &str) -> Option<&'static str> {
 }
 
 /// Every class, for looking a name up in all of them.
-const CLASSES: [Class; 14] = [
+pub const CLASSES: [Class; 14] = [
     Class::Scene,
     Class::Bsdf,
     Class::Emitter,

@@ -1,5 +1,6 @@
 //! What goes wrong, as Python's exceptions.
 
+use crate::dict::Keys;
 use etalon_film::ReadError;
 use etalon_images::Error;
 use etalon_params::{Diagnostic, Severity, Sources};
@@ -14,21 +15,41 @@ pyo3::create_exception!(
     etalon,
     SceneError,
     PyValueError,
-    "A scene has mistakes.\n\nThe message has a line `file:line:column: error: …` for each; `diagnostics` is a list \
-     of dicts with severity, message, help, file, line and column (both from 1)."
+    "A scene has mistakes.\n\nThe message has a line `file:line:column: error: …` for each, or `key.path: error: …` in a \
+     dict; `diagnostics` is a list of dicts with severity, message, help, key, file, line and column (both from 1)."
 );
 
 /// A scene that could not be loaded.
-pub(crate) fn scene_error(error: &LoadError) -> PyErr {
-    of_diagnostics(&error.diagnostics, &error.sources)
+pub(crate) fn scene_error(error: &LoadError, keys: &Keys) -> PyErr {
+    of_diagnostics(&error.diagnostics, &error.sources, keys)
 }
 
-/// Messages about a scene, with its texts.
-pub(crate) fn of_diagnostics(diagnostics: &[Diagnostic], sources: &Sources) -> PyErr {
-    let lines: Vec<String> = diagnostics.iter().map(|d| d.one_line(sources)).collect();
+/// Messages about a scene, with its texts and the keys of its dict.
+pub(crate) fn of_diagnostics(diagnostics: &[Diagnostic], sources: &Sources, keys: &Keys) -> PyErr {
+    exception(sources, || {
+        let said = diagnostics.iter();
+        said.map(|d| (keys.one_line(d, sources), d, keys.of(d, sources)))
+    })
+}
+
+/// Messages about a dict alone: each in one line, and with its key path.
+pub(crate) fn of_keys<'a>(
+    said: impl Iterator<Item = (String, &'a Diagnostic, &'a String)> + Clone,
+) -> PyErr {
+    exception(&Sources::default(), || {
+        said.clone()
+            .map(|(line, d, key)| (line, d, Some(key.as_str())))
+    })
+}
+
+fn exception<'a, Said: Iterator<Item = (String, &'a Diagnostic, Option<&'a str>)>>(
+    sources: &Sources,
+    said: impl Fn() -> Said,
+) -> PyErr {
+    let lines: Vec<String> = said().map(|(line, ..)| line).collect();
     let error = SceneError::new_err(lines.join("\n"));
     let attached = Python::attach(|py| {
-        let dicts = diagnostics.iter().map(|d| as_dict(py, d, sources));
+        let dicts = said().map(|(_, diagnostic, key)| as_dict(py, diagnostic, key, sources));
         let list = PyList::new(py, dicts.collect::<PyResult<Vec<_>>>()?)?;
         error.value(py).setattr("diagnostics", list)
     });
@@ -38,6 +59,7 @@ pub(crate) fn of_diagnostics(diagnostics: &[Diagnostic], sources: &Sources) -> P
 fn as_dict<'py>(
     py: Python<'py>,
     diagnostic: &Diagnostic,
+    key: Option<&str>,
     sources: &Sources,
 ) -> PyResult<Bound<'py, PyDict>> {
     let severity = match diagnostic.severity {
@@ -50,6 +72,7 @@ fn as_dict<'py>(
     dict.set_item("severity", severity)?;
     dict.set_item("message", &diagnostic.message)?;
     dict.set_item("help", &diagnostic.help)?;
+    dict.set_item("key", key)?;
     dict.set_item("file", file)?;
     dict.set_item("line", position.map(|(line, _)| line))?;
     dict.set_item("column", position.map(|(_, column)| column))?;

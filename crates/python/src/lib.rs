@@ -1,15 +1,19 @@
 //! The Python module `etalon`: a thin layer around `etalon_render`, which gives the same bits as the binary.
 //!
-//! A `Scene` is rendered by `render` to an `Image`, and images are judged by `compare`. The types that Python's tools
-//! see are in `etalon.pyi`.
+//! A `Scene` is read from a file, a text or a `dict`, rendered by `render` to an `Image`, and images are judged by `compare`.
+//! The types that Python's tools see are in `etalon.pyi`.
 
 mod comparison;
+mod dict;
 mod errors;
 mod image;
+mod origin;
 mod planes;
 mod progress_report;
 mod render;
 mod scene;
+mod scene_values;
+mod transform;
 
 /// Etalon renders scenes with their statistical errors, and decides whether pictures agree.
 #[pyo3::pymodule]
@@ -23,5 +27,7 @@ mod etalon {
     #[pymodule_export]
     use crate::render::render;
     #[pymodule_export]
-    use crate::scene::{Scene, load_file, load_string};
+    use crate::scene::{Scene, dict_to_xml, load_dict, load_file, load_string};
+    #[pymodule_export]
+    use crate::transform::Transform;
 }

@@ -80,7 +80,8 @@ pub(crate) fn render(
         report.tell(py, 1.0)?;
     }
     report.end(py)?;
-    let rendered = rendered?.map_err(|refusal| of_diagnostics(&[refusal], &loaded.sources))?;
+    let rendered =
+        rendered?.map_err(|refusal| of_diagnostics(&[refusal], &loaded.sources, &scene.keys()))?;
     Ok(Image::new(
         rendered.developed,
         None,

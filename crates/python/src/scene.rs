@@ -1,29 +1,16 @@
 //! Scenes: read, checked and compiled.
 
+use crate::dict::{Keys, SceneDict, changes};
 use crate::errors::scene_error;
-use etalon_render::pipeline::{self, LoadError, LoadOptions, Loaded};
+use crate::origin::{Origin, Text};
+use crate::scene_values::{Listing, to_python};
+use etalon_render::pipeline::{LoadOptions, Loaded};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBool, PyDict};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Where a scene comes from, to be read again with other options.
-#[derive(Clone)]
-enum Origin {
-    File(PathBuf),
-    Text(String),
-}
-
-impl Origin {
-    fn load(&self, options: &LoadOptions) -> Result<Loaded, LoadError> {
-        match self {
-            Self::File(path) => pipeline::load(path, options),
-            Self::Text(text) => pipeline::load_text(text, options),
-        }
-    }
-}
-
-/// A scene that is ready to be rendered, as made by `load_file` and `load_string`.
+/// A scene that is ready to be rendered, as made by `load_file`, `load_string` and `load_dict`.
 #[pyclass(module = "etalon", frozen)]
 pub(crate) struct Scene {
     origin: Origin,
@@ -32,16 +19,21 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    fn load(py: Python<'_>, origin: Origin, defines: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+    fn load(py: Python<'_>, text: Text, defines: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let options = LoadOptions {
             defines: defines.map(as_text).transpose()?.unwrap_or_default(),
             ..LoadOptions::default()
         };
-        let loaded = py.detach(|| origin.load(&options));
+        Self::compile(py, Origin::new(text), options)
+    }
+
+    fn compile(py: Python<'_>, origin: Origin, options: LoadOptions) -> PyResult<Self> {
+        let loaded = py.detach(|| origin.load(&options, &options));
+        let loaded = loaded.map_err(|error| scene_error(&error, &origin.keys()))?;
         Ok(Self {
             origin,
             options,
-            loaded: Arc::new(loaded.map_err(|error| scene_error(&error))?),
+            loaded: Arc::new(loaded),
         })
     }
 
@@ -56,8 +48,14 @@ impl Scene {
         };
         let mut options = self.options.clone();
         change(&mut options);
-        let loaded = py.detach(|| self.origin.load(&options));
-        loaded.map(Arc::new).map_err(|error| scene_error(&error))
+        let loaded = py.detach(|| self.origin.load(&options, &self.options));
+        let loaded = loaded.map_err(|error| scene_error(&error, &self.keys()))?;
+        Ok(Arc::new(loaded))
+    }
+
+    /// The keys of its dict, if it has one.
+    pub(crate) fn keys(&self) -> Keys {
+        self.origin.keys()
     }
 }
 
@@ -75,12 +73,12 @@ impl Scene {
         self.loaded.compiled.film.crop_size.into()
     }
 
-    /// Remarks about the scene that do not prevent rendering, each `file:line:column: note: …`.
+    /// Remarks about the scene that do not prevent rendering, each `file:line:column: note: …` or `key.path: note: …`.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        let notes = self.loaded.notes.iter();
+        let (notes, keys) = (self.loaded.notes.iter(), self.keys());
         notes
-            .map(|note| note.one_line(&self.loaded.sources))
+            .map(|note| keys.one_line(note, &self.loaded.sources))
             .collect()
     }
 
@@ -88,6 +86,27 @@ impl Scene {
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.loaded.described.parameters.clone().into_py_dict(py)
+    }
+
+    /// The values of the scene's plugins, by paths of keys such as 'ball.bsdf.reflectance', as far as they are given.
+    ///
+    /// A key is a name, or else an `id`, or else a type ('sphere', 'sphere_2', …). Numbers, texts, and arrays: 3 for points,
+    /// vectors and colours, n × 2 for spectra (nm, value), 4 × 4 for transforms.
+    fn values<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let listing = Listing::of(&self.loaded.described.root);
+        let values = listing.values();
+        let values = values.map(|(path, value)| Ok((path, to_python(py, value)?)));
+        values.collect::<PyResult<Vec<_>>>()?.into_py_dict(py)
+    }
+
+    /// The scene with other values: a dict from paths as `values()` has them, or of parameters that are not given yet.
+    ///
+    /// This scene stays as it is. What is read for the first change, files included, stays in memory for further ones. A value
+    /// is as in `load_dict`; three numbers in place of a colour, number or texture are a colour.
+    fn with_values(&self, py: Python<'_>, values: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let listing = Listing::of(&self.loaded.described.root);
+        let changes = changes::read(values, &listing)?;
+        Self::compile(py, self.origin.with(changes), self.options.clone())
     }
 
     fn __repr__(&self) -> String {
@@ -117,7 +136,7 @@ pub(crate) fn load_file(
             format!("cannot read {}: {error}", path.display()),
         ))
     })?;
-    Scene::load(py, Origin::File(path), defines)
+    Scene::load(py, Text::File(path), defines)
 }
 
 /// Reads a scene from a text of Mitsuba's XML, called `<string>` in messages.
@@ -130,7 +149,35 @@ pub(crate) fn load_string(
     xml: String,
     defines: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Scene> {
-    Scene::load(py, Origin::Text(xml), defines)
+    Scene::load(py, Text::Xml(xml), defines)
+}
+
+/// Reads a scene from a dict in Mitsuba 3's manner, called `<dict>` in messages without a key path.
+///
+/// dict: {'type': 'scene', …}. Its keys are names: a dict within is an object with the plugin of its `type`; {'type': 'ref',
+/// 'id': …} is another object, by its `id`, its key or its path of keys; {'type': 'rgb', 'value': [r, g, b]} and
+/// {'type': 'spectrum', 'value': a number or pairs (nm, value)} are colours; three numbers are a point or vector; a
+/// `Transform` or 4 × 4 numbers are a transform; {'type': 'animation', 'keys': pairs (time, value)} changes in time.
+/// Relative files are looked for in the current folder.
+///
+/// Arrays, which are copied: `data` of a `bitmap` or `envmap` is height × width, or × 1, 3 or 4 channels, floats (linear) or
+/// uint8 (sRGB unless `raw`); `data` of a `gridvolume` or `sdfgrid` is z × y × x, or × 1, 3 or 6 channels; a `mesh` has
+/// `vertices` (N × 3, m), `faces` (M × 3, indices from 0) and possibly `normals` (N × 3), `uv` (N × 2) and attributes
+/// `vertex_…` and `face_…` (1 or 3 numbers each).
+///
+/// Raises `SceneError` with every mistake, each with its path of keys.
+#[pyfunction]
+pub(crate) fn load_dict(py: Python<'_>, dict: &Bound<'_, PyDict>) -> PyResult<Scene> {
+    let dict = SceneDict::read(dict, true)?;
+    Scene::load(py, Text::Dict(dict), None)
+}
+
+/// The text of Mitsuba's XML that a dict stands for; `load_dict` says what is in one.
+///
+/// Raises `SceneError` if it has arrays, which no text can hold, or values that cannot be written.
+#[pyfunction]
+pub(crate) fn dict_to_xml(dict: &Bound<'_, PyDict>) -> PyResult<String> {
+    Ok(SceneDict::read(dict, false)?.scene.text)
 }
 
 /// Values as they would stand in the scene: `True` is `true`.

@@ -26,7 +26,7 @@ pub mod pilot;
 pub mod pipeline;
 pub mod report;
 pub mod resources;
-mod scene_hash;
+pub mod scene_hash;
 pub mod seeds;
 mod sizes;
 pub mod target;

@@ -30,7 +30,7 @@ pub struct LoadOptions {
 
 impl LoadOptions {
     /// Those of them that are for reading the scene's file.
-    pub(crate) fn reading(&self) -> ReadOptions {
+    pub fn reading(&self) -> ReadOptions {
         ReadOptions {
             defines: self.defines.clone(),
             integrator: self.integrator.clone(),

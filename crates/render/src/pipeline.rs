@@ -29,7 +29,8 @@ use std::time::{Duration, Instant};
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     let start = Instant::now();
     let read = etalon_formats::read(path, &options.reading());
-    compile(read, path, options, start)
+    let assets = assets(&read);
+    compile(read, &assets, path, options, start)
 }
 
 /// Reads and compiles a scene of Mitsuba's XML that is in no file: see [`mitsuba::read_text`].
@@ -39,12 +40,25 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
 pub fn load_text(text: &str, options: &LoadOptions) -> Result<Loaded, LoadError> {
     let start = Instant::now();
     let read = mitsuba::read_text(text, &options.reading());
-    compile(read, Path::new(mitsuba::TEXT), options, start)
+    let assets = assets(&read);
+    compile(read, &assets, Path::new(mitsuba::TEXT), options, start)
 }
 
-/// Compiles what was read from `start` on.
-fn compile(
+/// The files that a scene refers to.
+pub fn assets(read: &ReadOutcome) -> FileAssets {
+    read.document
+        .as_ref()
+        .map(FileAssets::of)
+        .unwrap_or_default()
+}
+
+/// Compiles what was read from `start` on, with its files.
+///
+/// # Errors
+/// As [`load`].
+pub fn compile(
     read: ReadOutcome,
+    assets: &FileAssets,
     path: &Path,
     options: &LoadOptions,
     start: Instant,
@@ -61,7 +75,6 @@ fn compile(
     let mut complete = true;
     if let Some(document) = document {
         let diagnostics = Diagnostics::silent_about(&stand_ins);
-        let assets = FileAssets::of(&document);
         let overruled = CompileOptions {
             light_chooser: options.light_chooser,
             accelerator: options.accelerator,
@@ -69,8 +82,7 @@ fn compile(
             framing: options.framing,
             time: options.time,
         };
-        let compiled =
-            etalon_scene::compile_with(&document.root, &assets, &diagnostics, &overruled);
+        let compiled = etalon_scene::compile_with(&document.root, assets, &diagnostics, &overruled);
         let integrator = integrator(&document.root, &diagnostics);
         if let (Some(compiled), Some((integrator, _))) = (&compiled, &integrator) {
             let place = place(&document.root, &[Class::Integrator]);
@@ -97,8 +109,8 @@ fn compile(
                 (
                     compiled,
                     integrator,
-                    scene_hash(&document, &assets, options),
-                    inputs(&document, &assets),
+                    scene_hash(&document, assets, options),
+                    inputs(&document, assets),
                     film_place,
                     described,
                 )

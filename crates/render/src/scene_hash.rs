@@ -48,6 +48,14 @@ pub(crate) fn scene_hash(
     hasher.finalize().to_hex()[..16].to_owned()
 }
 
+/// The hash of a scene in which something was changed that no file says.
+pub fn changed(hash: &str, changes: &str) -> String {
+    let mut hasher = Hasher::new();
+    add(&mut hasher, hash.as_bytes());
+    add(&mut hasher, changes.as_bytes());
+    hasher.finalize().to_hex()[..16].to_owned()
+}
+
 fn add(hasher: &mut Hasher, bytes: &[u8]) {
     hasher.update(&(bytes.len() as u64).to_le_bytes());
     hasher.update(bytes);

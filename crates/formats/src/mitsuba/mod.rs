@@ -27,20 +27,21 @@ mod spectrum_file;
 mod substitute;
 mod syntax;
 pub mod tags;
-pub(crate) mod transform;
+pub mod transform;
 mod upgrade;
 mod value;
 mod version;
 mod write;
 
 use crate::SearchPath;
-use crate::document::{Document, ReadOptions, ReadOutcome};
+use crate::document::{Document, ReadOptions, ReadOutcome, SourceFile, embedded_name};
 use include::Root;
 use reader::Reader;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 pub use upgrade::underscored;
-pub use write::{WrittenScene, write};
+pub use write::{WrittenScene, escaped, write};
 
 /// The name of a scene that is in no file, for messages.
 pub const TEXT: &str = "<string>";
@@ -58,6 +59,37 @@ pub fn read_text(text: &str, options: &ReadOptions) -> ReadOutcome {
     outcome(path, options, |reader, search| {
         include::parse(reader, path, text.into(), search, None, 0)
     })
+}
+
+/// A scene that is in no file, with the contents of files that are nowhere else.
+#[derive(Clone, Debug, Default)]
+pub struct SceneInMemory {
+    /// What the text is called in messages.
+    pub name: String,
+    /// Mitsuba's XML.
+    pub text: String,
+    /// The files, for which the text has the [`embedded_name`]s of their indices; meshes are binary PLY.
+    pub files: Vec<Arc<Vec<u8>>>,
+}
+
+/// As [`read_text`], with files in memory.
+pub fn read_in_memory(scene: &SceneInMemory, options: &ReadOptions) -> ReadOutcome {
+    let path = Path::new(&scene.name);
+    let mut read = outcome(path, options, |reader, search| {
+        include::parse(reader, path, scene.text.clone().into(), search, None, 0)
+    });
+    if let Some(document) = &mut read.document {
+        document.embedded = scene.files.iter().cloned().enumerate().collect();
+        // They are part of what tells one scene from another.
+        let sources = scene.files.iter().enumerate();
+        document
+            .files
+            .extend(sources.map(|(index, bytes)| SourceFile {
+                path: embedded_name(index).into(),
+                bytes: Arc::clone(bytes),
+            }));
+    }
+    read
 }
 
 fn outcome(

@@ -13,7 +13,7 @@ use glam::DVec4;
 /// Mitsuba 3 applies the formula to the axis as written, so a longer one shears; this is kept, with
 /// a note if it is not [`is_unit`] (Mitsuba 0.x divided by the length first). Axes of unit length up
 /// to their rounding in the file are normalised.
-pub(crate) fn rotate(axis: DVec3, degrees: f64) -> DMat4 {
+pub fn rotate(axis: DVec3, degrees: f64) -> DMat4 {
     let a = if is_unit(axis) {
         axis.normalize()
     } else {
@@ -32,14 +32,14 @@ pub(crate) fn rotate(axis: DVec3, degrees: f64) -> DMat4 {
 }
 
 /// Whether an axis has unit length within the rounding of a number of three or four digits.
-pub(crate) fn is_unit(axis: DVec3) -> bool {
+pub fn is_unit(axis: DVec3) -> bool {
     (axis.length() - 1.0).abs() < 1e-3
 }
 
 /// The frame that stands at `origin`, whose +z looks at `target` and whose +y lies in the
 /// half-plane of `up`; +x points to the left. Without an `up` (or with a zero one), one is made.
 /// `None` if the points coincide or `up` is parallel to the direction of view.
-pub(crate) fn look_at(origin: DVec3, target: DVec3, up: Option<DVec3>) -> Option<DMat4> {
+pub fn look_at(origin: DVec3, target: DVec3, up: Option<DVec3>) -> Option<DMat4> {
     let direction = (target - origin).try_normalize()?;
     let up = up
         .filter(|up| *up != DVec3::ZERO)
@@ -67,7 +67,7 @@ fn perpendicular(n: DVec3) -> DVec3 {
 }
 
 /// The matrix of 16 numbers, or of 9 for the linear part, row by row.
-pub(crate) fn matrix(numbers: &[f64]) -> Option<DMat4> {
+pub fn matrix(numbers: &[f64]) -> Option<DMat4> {
     match *numbers {
         [a, b, c, d, e, f, g, h, i] => Some(DMat4::from_cols(
             DVec4::new(a, d, g, 0.0),

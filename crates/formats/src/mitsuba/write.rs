@@ -235,7 +235,8 @@ fn numbers(list: &[f64]) -> String {
     list.join(" ")
 }
 
-fn escaped(text: &str) -> String {
+/// A text as it stands in an attribute.
+pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {

@@ -14,6 +14,7 @@ use super::color_space::to_rec709;
 use super::node::{Draft, Given, given, word};
 use super::spectrum::{Role, samples_of};
 use crate::document::embedded_name;
+use etalon_images::Volume;
 use etalon_params::{Class, DMat4, DVec3, Node, SpectrumText, Value};
 use std::sync::Arc;
 
@@ -69,17 +70,14 @@ pub(crate) fn volume_file<const C: usize>(
     sizes: [usize; 3],
     values: impl IntoIterator<Item = [f32; C]>,
 ) -> Vec<u8> {
-    let mut bytes = b"VOL\x03".to_vec();
-    let [x, y, z] = sizes.map(|n| n as i32);
-    for word in [1, x, y, z, C as i32] {
-        bytes.extend(word.to_le_bytes());
-    }
-    let corners = [0.0_f32, 0.0, 0.0, 1.0, 1.0, 1.0];
-    let values = values.into_iter().flatten();
-    for number in corners.into_iter().chain(values) {
-        bytes.extend(number.to_le_bytes());
-    }
-    bytes
+    let volume = Volume {
+        size: sizes,
+        channels: C,
+        bounds: [[0.0; 3], [1.0; 3]],
+        samples: values.into_iter().flatten().collect(),
+        behind: 0,
+    };
+    volume.encode()
 }
 
 impl<'a> Mapper<'a> {
