@@ -20,6 +20,8 @@ pub(crate) struct Hearing<'a> {
 #[derive(Clone, Default)]
 pub(crate) struct Heard {
     pub(crate) question: Question,
+    /// Every kind that its value may be of.
+    pub(crate) kinds: BTreeSet<String>,
     /// The defaults that hold if it is not given.
     pub(crate) defaults: BTreeSet<String>,
     /// A default said where it was given, which may hold nowhere.
@@ -40,6 +42,7 @@ impl Heard {
                 known.clone_from(new);
             }
         }
+        self.kinds.extend(other.kinds.iter().cloned());
         self.question.required |= other.question.required;
         self.defaults.extend(other.defaults.iter().cloned());
         self.can_be_left_out |= other.can_be_left_out;
@@ -105,6 +108,7 @@ impl<'a> Hearing<'a> {
             }
             let default = question.default.clone();
             let mut heard = Heard {
+                kinds: BTreeSet::from([question.kind.clone()]),
                 question: Question {
                     default: String::new(),
                     ..question.clone()

@@ -52,6 +52,9 @@ pub(crate) struct Plugin {
     /// Further elements, for parameters that are asked for in some circumstances only. They need not load.
     #[serde(default)]
     pub(crate) probes: Vec<String>,
+    /// Tags of what may be nested in it under any name.
+    #[serde(default)]
+    pub(crate) inputs: Vec<String>,
     /// Words for parameters, where those for all plugins do not fit.
     #[serde(default)]
     pub(crate) parameters: BTreeMap<String, String>,

@@ -1,4 +1,4 @@
-//! The drivers that come with Etalon. Their files are in `validation/drivers`.
+//! The drivers that come with Etalon. Their files are in `drivers`.
 
 /// A driver within this program.
 #[derive(Clone, Copy, Debug)]
@@ -13,7 +13,7 @@ pub struct BuiltIn {
 
 macro_rules! file {
     ($name:literal) => {
-        include_str!(concat!("../../../validation/drivers/", $name))
+        include_str!(concat!("../drivers/", $name))
     };
 }
 

@@ -23,8 +23,8 @@ impl Params<'_> {
         if property.is_some_and(|property| matches!(property.value, Value::String(_))) {
             return self.expression(name, variables);
         }
-        self.note_default(name, "a number or an expression", default);
         let number = self.float(name).unwrap_or(default);
+        self.note_default(name, "a number or an expression", default);
         Expression::parse(&format!("({number})"), &[]).ok()
     }
 

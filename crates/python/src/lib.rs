@@ -7,12 +7,12 @@ mod comparison;
 mod dict;
 mod errors;
 mod image;
+mod listing;
 mod origin;
 mod planes;
 mod progress_report;
 mod render;
 mod scene;
-mod scene_values;
 mod transform;
 
 /// Etalon renders scenes with their statistical errors, and decides whether pictures agree.

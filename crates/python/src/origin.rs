@@ -1,7 +1,7 @@
 //! Where a scene comes from, to be compiled again with other options or values.
 
 use crate::dict::{Keys, SceneDict};
-use crate::scene_values::{Change, changed};
+use crate::listing::{Change, changed};
 use etalon_formats::{ReadOutcome, mitsuba};
 use etalon_params::Diagnostic;
 use etalon_render::pipeline::{self, LoadError, LoadOptions, Loaded};

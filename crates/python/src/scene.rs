@@ -2,8 +2,8 @@
 
 use crate::dict::{Keys, SceneDict, changes};
 use crate::errors::scene_error;
+use crate::listing::{Listing, to_python};
 use crate::origin::{Origin, Text};
-use crate::scene_values::{Listing, to_python};
 use etalon_render::pipeline::{LoadOptions, Loaded};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBool, PyDict};

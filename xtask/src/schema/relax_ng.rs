@@ -41,7 +41,9 @@ pub(crate) fn schema(all: &[Described<'_>]) -> String {
                 });
             });
         }
-        define(xml, "truth", |xml| pattern(xml, r"[Tt]rue|[Ff]alse|.*\$.*"));
+        define(xml, "truth", |xml| {
+            pattern(xml, r"[Tt]rue|[Ff]alse|.*[$].*")
+        });
         transforms(xml);
         for (name, tag) in TAGS {
             if !matches!(tag, Tag::Object(_)) {
@@ -76,21 +78,29 @@ fn any_number_of(xml: &mut Xml, choices: impl FnOnce(&mut Xml)) {
     xml.element("zeroOrMore", &[], |xml| xml.element("choice", &[], choices));
 }
 
-/// An attribute `name` that is one of these, or any.
-fn named(xml: &mut Xml, names: Option<&BTreeSet<String>>) {
-    let Some(names) = names else {
-        xml.element("optional", &[], |xml| {
+/// An attribute `name` that is in a defined set of names, or any.
+fn named(xml: &mut Xml, names: Option<&str>) {
+    match names {
+        None => xml.element("optional", &[], |xml| {
             xml.leaf("attribute", &[("name", "name")])
+        }),
+        Some(names) => refer(xml, names),
+    }
+}
+
+/// Defines the sets of names of some slots.
+fn define_names(xml: &mut Xml, of: &str, slots: &Slots) {
+    for (index, names) in slots.values().enumerate() {
+        define(xml, &format!("{of}.{index}"), |xml| {
+            xml.element("attribute", &[("name", "name")], |xml| {
+                xml.element("choice", &[], |xml| {
+                    for name in names {
+                        xml.text("value", &[], name);
+                    }
+                });
+            });
         });
-        return;
-    };
-    xml.element("attribute", &[("name", "name")], |xml| {
-        xml.element("choice", &[], |xml| {
-            for name in names {
-                xml.text("value", &[], name);
-            }
-        });
-    });
+    }
 }
 
 /// The names of the tags of a class's objects; a texture may be a `<spectrum type="…">` too.
@@ -103,6 +113,8 @@ fn tags(class: Class) -> impl Iterator<Item = &'static str> {
 }
 
 fn scene(xml: &mut Xml, classes: &BTreeSet<Class>) {
+    let ignored = of_ignored(Class::Scene, &[]);
+    define_names(xml, "scene", &ignored);
     define(xml, "scene", |xml| {
         xml.element("element", &[("name", "scene")], |xml| {
             xml.element("optional", &[], |xml| {
@@ -113,7 +125,7 @@ fn scene(xml: &mut Xml, classes: &BTreeSet<Class>) {
                 for class in classes {
                     objects(xml, *class, None);
                 }
-                slots(xml, &of_ignored(Class::Scene, &[]));
+                slots(xml, "scene", &ignored);
             });
         });
     });
@@ -178,7 +190,7 @@ fn transforms(xml: &mut Xml) {
                     && !matches!(tag, Tag::Default | Tag::Animation)
                 {
                     xml.element("element", &[("name", name)], |xml| {
-                        for attribute in ["time", "interpolation"] {
+                        for attribute in ["time", "tangent", "interpolation"] {
                             xml.element("optional", &[], |xml| {
                                 xml.leaf("attribute", &[("name", attribute)]);
                             });
@@ -225,7 +237,7 @@ fn anything(xml: &mut Xml) {
 }
 
 /// Objects of a class, with one of these names or any.
-fn objects(xml: &mut Xml, class: Class, names: Option<&BTreeSet<String>>) {
+fn objects(xml: &mut Xml, class: Class, names: Option<&str>) {
     for tag in tags(class) {
         xml.element("element", &[("name", tag)], |xml| {
             named(xml, names);
@@ -244,10 +256,19 @@ fn tags_of(kind: &str) -> Vec<&'static str> {
         "number" => vec!["float", "integer", "animation"],
         "integer" => vec!["integer"],
         "string" => vec!["string"],
-        "transform" => vec!["transform"],
-        "transform or an animation" => vec!["transform", "animation"],
+        "transform" | "transform or an animation" => vec!["transform", "animation"],
         "point or vector" => vec!["point", "vector", "animation"],
-        "number or a name" => vec!["float", "integer", "string"],
+        "spectrum or texture" => vec![
+            "float",
+            "integer",
+            "rgb",
+            "srgb",
+            "blackbody",
+            "spectrum",
+            "animation",
+            "texture",
+            "volume",
+        ],
         _ if bare.starts_with("boolean") => vec!["boolean"],
         _ => vec![
             "float",
@@ -268,9 +289,10 @@ fn tags_of(kind: &str) -> Vec<&'static str> {
     }
 }
 
-/// Parameters by the tags that give their values.
-fn slots(xml: &mut Xml, slots: &Slots) {
-    for (tags, names) in slots {
+/// Parameters by the tags that give their values, whose names are defined.
+fn slots(xml: &mut Xml, of: &str, slots: &Slots) {
+    for (index, tags) in slots.keys().enumerate() {
+        let names = &format!("{of}.{index}");
         for tag in tags {
             match *tag {
                 "texture" => objects(xml, Class::Texture, Some(names)),
@@ -301,42 +323,71 @@ fn of_ignored(class: Class, plugins: &[String]) -> Slots {
 }
 
 fn body<'a>(xml: &mut Xml, class: Class, plugins: impl Iterator<Item = &'a Described<'a>>) {
+    let plugins: Vec<(String, Slots, &Described<'_>)> = plugins
+        .map(|described| {
+            let of = format!("{}.{}", class.name(), described.plugin.names[0]);
+            (of, parameters(described), described)
+        })
+        .collect();
+    for (of, parameters, _) in &plugins {
+        define_names(xml, of, parameters);
+    }
     define(xml, &format!("{}.body", class.name()), |xml| {
         xml.element("choice", &[], |xml| {
             xml.element("group", &[], |xml| {
                 xml.element("attribute", &[("name", "type")], |xml| {
-                    pattern(xml, r".*\$.*");
+                    pattern(xml, r".*[$].*");
                 });
                 refer(xml, "anything");
             });
-            for described in plugins {
-                xml.element("group", &[], |xml| plugin(xml, described));
+            for (of, parameters, described) in &plugins {
+                xml.element("group", &[], |xml| plugin(xml, of, parameters, described));
             }
         });
     });
 }
 
-fn plugin(xml: &mut Xml, described: &Described<'_>) {
-    let names = &described.plugin.names;
+/// The parameters of some plugins, by tags.
+fn parameters(described: &Described<'_>) -> Slots {
+    let mut parameters = of_ignored(described.class, &described.plugin.names);
+    for (name, heard) in &described.rows {
+        if !name.starts_with('<') {
+            let kinds = heard.kinds.iter().filter(|kind| !kind.is_empty());
+            let tags: BTreeSet<&str> = match heard.question.kind.as_str() {
+                "" => tags_of("").into_iter().collect(),
+                _ => kinds.flat_map(|kind| tags_of(kind)).collect(),
+            };
+            let tags = tags.into_iter().collect();
+            (parameters.entry(tags).or_default()).insert(name.clone());
+        }
+    }
+    parameters
+}
+
+fn plugin(xml: &mut Xml, of: &str, parameters: &Slots, described: &Described<'_>) {
     xml.element("attribute", &[("name", "type")], |xml| {
         xml.element("choice", &[], |xml| {
-            for name in names {
+            for name in &described.plugin.names {
                 xml.text("value", &[], name);
             }
         });
     });
-    let mut parameters = of_ignored(described.class, names);
-    for (name, heard) in &described.rows {
-        if !name.starts_with('<') {
-            (parameters.entry(tags_of(&heard.question.kind)).or_default()).insert(name.clone());
-        }
-    }
     any_number_of(xml, |xml| {
         refer(xml, "language");
-        slots(xml, &parameters);
-        for (_, tag) in TAGS {
+        slots(xml, of, parameters);
+        for (tag_name, tag) in TAGS {
+            let is_input = described.plugin.inputs.iter().any(|name| name == tag_name);
+            if is_input && !matches!(tag, Tag::Object(_)) {
+                xml.element("element", &[("name", tag_name)], |xml| {
+                    named(xml, None);
+                    refer(xml, &format!("{tag_name}.value"));
+                });
+            }
             if let Tag::Object(class) = tag
-                && described.rows.contains_key(&format!("<{}>", class.name()))
+                && (is_input
+                    // A shape may be what a sensor measures the light of.
+                    || (described.class, class) == (Class::Shape, Class::Sensor)
+                    || described.rows.contains_key(&format!("<{}>", class.name())))
             {
                 objects(xml, class, None);
             }

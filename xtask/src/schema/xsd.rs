@@ -109,7 +109,7 @@ fn element(xml: &mut Xml, name: &str, tag: Option<Tag>, attributes: &[&str]) {
                 );
             }
             if tag.is_some_and(|tag| tag.attributes().contains(&"!name")) {
-                for timed in ["time", "interpolation"] {
+                for timed in ["time", "tangent", "interpolation"] {
                     if !attributes.contains(&timed) {
                         xml.leaf("xs:attribute", &[("name", timed), ("type", "xs:string")]);
                     }

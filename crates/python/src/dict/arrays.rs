@@ -1,6 +1,6 @@
 //! Arrays as files in memory: pictures and volumes.
 
-use super::tree::named;
+use super::object::named;
 use super::values::{Refusal, sizes};
 use etalon_images::exr::{self, Part};
 use etalon_images::{Image, Volume, png};

@@ -2,10 +2,10 @@
 
 use super::elements::Elements;
 use super::mistakes::Mistakes;
-use super::tree::{self, Entry, Ids, Object};
+use super::object::{self, Entry, Ids, Object};
 use super::{SceneDict, values};
 use crate::errors::scene_error;
-use crate::scene_values::{Change, Listing, split};
+use crate::listing::{Change, Listing, split};
 use etalon_formats::{ReadOptions, mitsuba};
 use etalon_params::{Class, Diagnostic, Value};
 use etalon_render::pipeline::LoadError;
@@ -51,7 +51,7 @@ pub(crate) fn read(dict: &Bound<'_, PyDict>, scene: &Listing<'_>) -> PyResult<Ve
         }
         let entry = match (value.cast::<PyDict>(), colour(&value, old)) {
             (Ok(dict), _) => {
-                match tree::read(dict, path.clone(), &mut Vec::new(), &mut mistakes)? {
+                match object::read(dict, path.clone(), &mut Vec::new(), &mut mistakes)? {
                     Some(colour) if colour.is_colour() => Entry::Object(colour),
                     Some(_) => {
                         mistakes.add(&path, "objects cannot be replaced, only their values");

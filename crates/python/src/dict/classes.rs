@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 /// All plugins that are built, of which tests know that the list is complete.
-const WORDS: &str = include_str!("../../../../docs/plugins.toml");
+const WORDS: &str = include_str!("../../plugins.toml");
 
 /// Name and class of every plugin that is built; of a name that two classes have, the class that is meant without further signs.
 fn built() -> &'static BTreeMap<&'static str, Class> {

@@ -2,7 +2,7 @@
 
 use super::arrays::{self, Kind};
 use super::mistakes::Mistakes;
-use super::tree::{self, Entry, Ids, Object};
+use super::object::{self, Entry, Ids, Object};
 use super::{Keys, NAME, SceneDict, classes, mesh, values};
 use etalon_formats::embedded_name;
 use etalon_formats::mitsuba::{self, SceneInMemory};
@@ -299,7 +299,7 @@ impl<'a, 'py> Elements<'a, 'py> {
             match value.cast::<PyDict>() {
                 Ok(dict) => {
                     let (path, open) = (path.to_owned(), &mut Vec::new());
-                    let read = tree::read(dict, path.clone(), open, &mut self.mistakes)?;
+                    let read = object::read(dict, path.clone(), open, &mut self.mistakes)?;
                     let element = match read {
                         Some(colour) if colour.is_colour() => self.colour(&colour, &path, label),
                         _ => {

@@ -1,7 +1,7 @@
 //! `mesh`: triangles in arrays, of the names that Mitsuba's meshes and files have.
 
 use super::arrays::{as_array, floats};
-use super::tree::{Entry, Object};
+use super::object::{Entry, Object};
 use super::values::{Refusal, sizes};
 use etalon_formats::ply;
 use etalon_transport::{Attribute, MeshData};

@@ -10,7 +10,7 @@ mod elements;
 mod keys;
 mod mesh;
 mod mistakes;
-mod tree;
+mod object;
 mod values;
 
 pub(crate) use keys::{Keys, NAME};
@@ -19,9 +19,9 @@ pub(crate) use values::{matrix, point};
 use elements::Elements;
 use etalon_formats::mitsuba::SceneInMemory;
 use mistakes::Mistakes;
+use object::{Ids, Object};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tree::{Ids, Object};
 
 /// A dict as a text, with its arrays and the keys of its lines.
 pub(crate) struct SceneDict {
@@ -33,7 +33,7 @@ impl SceneDict {
     /// Writes the text of a dict, with arrays or without.
     pub(crate) fn read(dict: &Bound<'_, PyDict>, with_arrays: bool) -> PyResult<Self> {
         let mut mistakes = Mistakes::default();
-        let root = tree::read(dict, String::new(), &mut Vec::new(), &mut mistakes)?;
+        let root = object::read(dict, String::new(), &mut Vec::new(), &mut mistakes)?;
         mistakes.raise()?;
         let scene = |root: &Object<'_>| root.kind == "scene";
         let Some(root) = root.filter(scene) else {

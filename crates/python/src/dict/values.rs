@@ -1,6 +1,6 @@
 //! Python's values as those of XML.
 
-use super::tree::named;
+use super::object::named;
 use crate::transform::Transform;
 use etalon_params::{DMat4, DVec3};
 use numpy::{AllowTypeChange, PyArrayLikeDyn, PyUntypedArrayMethods};
