@@ -310,8 +310,7 @@ fn slots(xml: &mut Xml, of: &str, slots: &Slots) {
 fn of_ignored(class: Class, plugins: &[String]) -> Slots {
     let matching = ignored::list().filter(|entry| {
         let is_of = |name: &&str| plugins.iter().any(|plugin| plugin == name);
-        entry.class == class
-            && (entry.plugins.is_empty() || entry.plugins.iter().any(|p| is_of(&p)))
+        entry.class == class && (entry.plugins.is_empty() || entry.plugins.iter().any(is_of))
     });
     let names: BTreeSet<String> = matching
         .flat_map(|entry| entry.names.iter().map(|name| (*name).to_owned()))

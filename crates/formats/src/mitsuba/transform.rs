@@ -9,7 +9,7 @@ use glam::DVec4;
 
 /// Rotation by `degrees` about `axis`, counter-clockwise seen against it.
 ///
-/// R = cos θ · 1 + (1 − cos θ) · a aᵀ + sin θ · [a]×, which is a rotation only for |a| = 1.
+/// R = cos θ · 1 + (1 − cos θ) · a aᵀ + sin θ · a×, which is a rotation only for |a| = 1.
 /// Mitsuba 3 applies the formula to the axis as written, so a longer one shears; this is kept, with
 /// a note if it is not [`is_unit`] (Mitsuba 0.x divided by the length first). Axes of unit length up
 /// to their rounding in the file are normalised.
