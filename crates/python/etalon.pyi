@@ -13,10 +13,12 @@ __all__ = [
     "SceneError",
     "Transform",
     "compare",
+    "denoise",
     "dict_to_xml",
     "load_dict",
     "load_file",
     "load_string",
+    "merge",
     "read",
     "render",
 ]
@@ -92,7 +94,7 @@ class Image:
         rows × columns × colours × 3: the mean over replicates, and the lower and upper end of its interval.
         """
     def save(self, path: _Path) -> None:
-        """Writes an image with everything (.exr), or a picture to look at (.png)."""
+        """Writes an image with everything (.exr; a part that `merge` takes if it is one), or a picture to look at (.png)."""
     @staticmethod
     def from_replicates(pictures: Iterable[ArrayLike], *, spp: int = 1, program: str = "") -> Image:
         """Pictures of one scene with different, independent seeds, by any renderer, as one image with its errors.
@@ -112,6 +114,9 @@ class Image:
     @property
     def mean_relative_standard_error(self) -> Optional[float]:
         """√ of the mean of s² / (m² + 0.01) over pixels and colours, with mean m and standard error s."""
+    @property
+    def relative_standard_error(self) -> Optional[float]:
+        """√(Σ ⟨s²⟩ / Σ m²), with means over the image of each colour and of s², and sums over colours; None if it is black."""
     @property
     def metadata(self) -> Dict[str, Any]:
         """Version, scene, integrator, sampler, spp, replicates, seed, film, …; empty for pictures of other programs."""
@@ -210,10 +215,15 @@ def render(
     spp: Optional[int] = None,
     seed: Optional[int] = None,
     *,
+    error: Optional[float] = None,
+    seconds: Optional[float] = None,
+    replicates: Optional[int] = None,
     integrator: Optional[str] = None,
     size: Optional[Tuple[int, int]] = None,
     crop: Optional[Tuple[int, int, int, int]] = None,
     time: Optional[float] = None,
+    features: bool = False,
+    part: Optional[Tuple[int, int]] = None,
     threads: Optional[int] = None,
     progress: Union[None, bool, Callable[[float], object]] = None,
 ) -> Image:
@@ -221,10 +231,16 @@ def render(
 
     spp: samples per pixel, all replicates together.
     seed: the same one gives the same bits, whatever the threads, and those of the binary.
+    error: in place of spp, the `relative_standard_error` to reach (10⁻⁶ to 1). A pilot fixes how many samples are needed, and
+        is no part of the image; `notes` says so if the error is missed, as it is in one case of twenty or so.
+    seconds: in place of spp, about how long to render (s), pilot included.
+    replicates: independent estimates whose spread makes the standard error; 8 or somewhat more if None.
     integrator: a type for the innermost integrator.
     size: width and height of the whole film (pixels).
     crop: x, y, width and height of the part to render, with the bits that it has in the whole.
     time: the moment that the shutter counts from (units of scene time).
+    features: whether the image gets the channels that `denoise` needs.
+    part: (k, n): the k-th of n shares of the replicates alone, to be put together by `merge`.
     threads: as many as there are processors if None.
     progress: called with the fraction done, or True for a line on standard error.
 
@@ -233,6 +249,23 @@ def render(
 
 def read(path: _Path) -> Image:
     """Reads an EXR file, of Etalon or another program."""
+
+def merge(parts: Iterable[Union[Image, _Path]], *, partial: bool = False) -> Image:
+    """Puts the parts of an image together, as `render(…, part=(k, n))` and `etalon render --part k/n` make them.
+
+    parts: images or files, in any order. The result has the bits of a render that was not split.
+    partial: whether replicates may be missing; the result is a larger part then.
+    Raises ValueError for what is no part, parts of different renders or with common replicates, and missing replicates.
+    """
+
+def denoise(image: Union[Image, _Path], *, oidn: Union[bool, _Path] = False) -> Image:
+    """Denoises an image that was rendered with `features=True` (`etalon render --features`).
+
+    `standard_error()` of the result estimates its root mean square error, bias included. It has no replicates, and
+    `compare` makes no verdict of it.
+    oidn: True, or a path to it, to let Intel's Open Image Denoise 2 filter.
+    Raises ValueError if the image lacks the features, or the library is not found.
+    """
 
 def compare(
     a: Union[Image, _Path],

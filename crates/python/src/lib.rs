@@ -4,9 +4,11 @@
 //! The types that Python's tools see are in `etalon.pyi`.
 
 mod comparison;
+mod denoise;
 mod dict;
 mod errors;
 mod image;
+mod merge;
 mod origin;
 mod planes;
 mod progress_report;
@@ -14,6 +16,7 @@ mod render;
 mod scene;
 mod scene_values;
 mod transform;
+mod watched;
 
 /// Etalon renders scenes with their statistical errors, and decides whether pictures agree.
 #[pyo3::pymodule]
@@ -21,9 +24,13 @@ mod etalon {
     #[pymodule_export]
     use crate::comparison::{Comparison, compare};
     #[pymodule_export]
+    use crate::denoise::denoise;
+    #[pymodule_export]
     use crate::errors::SceneError;
     #[pymodule_export]
     use crate::image::{Image, read};
+    #[pymodule_export]
+    use crate::merge::merge;
     #[pymodule_export]
     use crate::render::render;
     #[pymodule_export]
