@@ -1,13 +1,15 @@
 """Etalon renders scenes with their statistical errors, and decides whether pictures agree."""
 
 import os
-from typing import Any, Callable, Dict, Iterable, List, Literal, Optional, Tuple, TypedDict, Union, final
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Literal, Optional, Sequence, Tuple, TypedDict, Union, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "Comparison",
+    "Estimator",
+    "EstimatorComparison",
     "Image",
     "Scene",
     "SceneError",
@@ -15,6 +17,7 @@ __all__ = [
     "compare",
     "denoise",
     "dict_to_xml",
+    "estimators",
     "load_dict",
     "load_file",
     "load_string",
@@ -145,6 +148,69 @@ class Comparison:
         """What one should know to read the verdict: why the images cannot be judged, a seed that both share, …"""
     def report(self, path: _Path) -> None:
         """Writes a self-contained page (HTML)."""
+    def __bool__(self) -> bool: ...
+
+@final
+class Estimator:
+    """What was found about one estimator; figures are of one picture of `spp` samples per pixel, at equal time."""
+
+    @property
+    def name(self) -> str:
+        """What tells it from the others, such as 'path' or 'path, sobol'."""
+    @property
+    def spp(self) -> int:
+        """Samples per pixel of one picture."""
+    @property
+    def pictures(self) -> int:
+        """Independent pictures that were rendered at equal time."""
+    @property
+    def mean(self) -> Tuple[float, float, float]:
+        """The means of red, green and blue over the image and all pictures (linear Rec. 709, the scene's units)."""
+    @property
+    def relative_mse(self) -> Optional[float]:
+        """The mean of (x − r)² / (r² + 0.01) with the reference r, of one picture."""
+    @property
+    def variance(self) -> Optional[float]:
+        """The part of `relative_mse` that is variance."""
+    @property
+    def bias_squared(self) -> Optional[float]:
+        """The part of `relative_mse` that is bias; an unbiased estimate, which may be negative."""
+    @property
+    def seconds(self) -> Optional[float]:
+        """The time of one picture (s)."""
+    @property
+    def efficiency(self) -> Optional[float]:
+        """1 / (relative_mse · seconds), in s⁻¹."""
+    @property
+    def gain(self) -> Optional[float]:
+        """How many times as efficient as the first estimator; None of the first."""
+    @property
+    def intervals(self) -> Dict[str, Optional[Tuple[float, float]]]:
+        """The intervals of 95 % of these figures, by name; None where there is none."""
+    @property
+    def differences(self) -> Dict[str, Optional[Tuple[float, float]]]:
+        """For each channel the interval of the relative difference from the first estimator's mean; empty of the first."""
+
+@final
+class EstimatorComparison:
+    """What came of comparing estimators: a mapping from their names; true if all have the same mean within the tolerance."""
+
+    @property
+    def verdict(self) -> Literal["equivalent", "different", "inconclusive"]:
+        """Whether the intervals of all differences between means lie within the tolerance, or one outside."""
+    @property
+    def notes(self) -> List[str]:
+        """What one should know before believing the figures."""
+    @property
+    def findings(self) -> Dict[str, Any]:
+        """Everything that was found, as docs/estimators-json.md has it."""
+    def keys(self) -> List[str]:
+        """The names; the others are compared to the first."""
+    def report(self, path: _Path) -> None:
+        """Writes a self-contained page (HTML)."""
+    def __getitem__(self, name: str, /) -> Estimator: ...
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[str]: ...
     def __bool__(self) -> bool: ...
 
 def load_file(path: _Path, **defines: object) -> Scene:
@@ -280,4 +346,26 @@ def compare(
     tolerance: the bias of an image's mean that would matter, relative to the channel's mean.
     tile_tolerance: that of a tile, relative to its own mean (plus `tolerance` of the image's).
     alpha: the probability of calling equal images different, over everything that is asked.
+    """
+
+def estimators(
+    scene: Scene,
+    integrators: Sequence[str] = (),
+    *,
+    seconds: float,
+    samplers: Sequence[str] = (),
+    filters: Sequence[str] = (),
+    tolerance: float = 0.01,
+    reference: Optional[_Path] = None,
+    seed: int = 0,
+    threads: Optional[int] = None,
+    progress: Union[None, bool, Callable[[float], object]] = None,
+) -> EstimatorComparison:
+    """Compares estimators on a scene: their means, errors, times and efficiencies, each with its interval.
+
+    integrators, samplers, filters: names to combine; the scene's own for an empty list. Two estimators or more.
+    seconds: the time for all rendering together (s).
+    tolerance: the difference of means that would matter, relative.
+    reference: the file of a converged image to measure errors against, instead of one by the first estimator.
+    Raises SceneError for what the scene cannot be rendered with, and ValueError if the time is not enough.
     """

@@ -7,6 +7,8 @@ mod comparison;
 mod denoise;
 mod dict;
 mod errors;
+mod estimator;
+mod estimators;
 mod image;
 mod merge;
 mod origin;
@@ -27,6 +29,10 @@ mod etalon {
     use crate::denoise::denoise;
     #[pymodule_export]
     use crate::errors::SceneError;
+    #[pymodule_export]
+    use crate::estimator::Estimator;
+    #[pymodule_export]
+    use crate::estimators::{EstimatorComparison, estimators};
     #[pymodule_export]
     use crate::image::{Image, read};
     #[pymodule_export]
