@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "Comparison",
+    "Conformance",
     "Estimator",
     "EstimatorComparison",
     "Image",
@@ -15,6 +16,7 @@ __all__ = [
     "SceneError",
     "Transform",
     "compare",
+    "conform",
     "denoise",
     "dict_to_xml",
     "estimators",
@@ -213,6 +215,23 @@ class EstimatorComparison:
     def __iter__(self) -> Iterator[str]: ...
     def __bool__(self) -> bool: ...
 
+@final
+class Conformance:
+    """What a renderer answered; true if it agrees in all that it can express."""
+
+    @property
+    def verdict(self) -> Literal["agrees", "differs", "broken", "undecided"]:
+        """The worst that was found, if not all agrees; 'undecided' is never a pass."""
+    @property
+    def verdicts(self) -> Dict[str, Literal["agrees", "differs", "broken", "undecided", "not supported"]]:
+        """For each question."""
+    @property
+    def findings(self) -> Dict[str, Any]:
+        """Everything that was found, as the `report.json` of `etalon conform run` has it."""
+    def report(self, path: _Path) -> None:
+        """Writes a self-contained page (HTML)."""
+    def __bool__(self) -> bool: ...
+
 def load_file(path: _Path, **defines: object) -> Scene:
     """Reads a scene of Mitsuba's XML, pbrt-v4 or glTF, as the ending of its file tells.
 
@@ -324,7 +343,7 @@ def merge(parts: Iterable[Union[Image, _Path]], *, partial: bool = False) -> Ima
     Raises ValueError for what is no part, parts of different renders or with common replicates, and missing replicates.
     """
 
-def denoise(image: Union[Image, _Path], *, oidn: Union[bool, _Path] = False) -> Image:
+def denoise(image: Union[Image, _Path], *, oidn: Union[None, bool, _Path] = None) -> Image:
     """Denoises an image that was rendered with `features=True` (`etalon render --features`).
 
     `standard_error()` of the result estimates its root mean square error, bias included. It has no replicates, and
@@ -350,11 +369,11 @@ def compare(
 
 def estimators(
     scene: Scene,
-    integrators: Sequence[str] = (),
+    integrators: Optional[Sequence[str]] = None,
     *,
     seconds: float,
-    samplers: Sequence[str] = (),
-    filters: Sequence[str] = (),
+    samplers: Optional[Sequence[str]] = None,
+    filters: Optional[Sequence[str]] = None,
     tolerance: float = 0.01,
     reference: Optional[_Path] = None,
     seed: int = 0,
@@ -363,9 +382,32 @@ def estimators(
 ) -> EstimatorComparison:
     """Compares estimators on a scene: their means, errors, times and efficiencies, each with its interval.
 
-    integrators, samplers, filters: names to combine; the scene's own for an empty list. Two estimators or more.
+    integrators, samplers, filters: names to combine; the scene's own if None. Two estimators or more.
     seconds: the time for all rendering together (s).
     tolerance: the difference of means that would matter, relative.
     reference: the file of a converged image to measure errors against, instead of one by the first estimator.
     Raises SceneError for what the scene cannot be rendered with, and ValueError if the time is not enough.
+    """
+
+def conform(
+    driver: _Path,
+    output: _Path,
+    *,
+    questions: Optional[Sequence[str]] = None,
+    tier: Literal["quick", "standard", "full"] = "standard",
+    workers: Optional[int] = None,
+    limit: int = 120,
+    python: Optional[_Path] = None,
+    etalon: Optional[_Path] = None,
+) -> Conformance:
+    """Asks a renderer questions with known answers.
+
+    driver: a TOML file that says how to run it (docs/testing-a-renderer.md), or the name of a driver that comes with Etalon.
+    output: the folder for scenes and pictures; those that are there already are not rendered again.
+    questions: their names; all if None.
+    workers: pictures at a time, each with one thread; as many as there are processors if None.
+    limit: the longest that a picture may take (s).
+    python, etalon: the programs that drivers call so; this Python and the binary on the PATH if None.
+
+    Ctrl-C waits for the pictures that are being rendered. Raises ValueError for what cannot be run or written.
     """

@@ -34,11 +34,15 @@ impl Network {
 ///
 /// Raises ValueError if the image lacks the features, or the library is not found.
 #[pyfunction]
-#[pyo3(signature = (image, *, oidn=Network::OfSystem(false)))]
-pub(crate) fn denoise(py: Python<'_>, image: ImageOrPath<'_>, oidn: Network) -> PyResult<Image> {
+#[pyo3(signature = (image, *, oidn=None))]
+pub(crate) fn denoise(
+    py: Python<'_>,
+    image: ImageOrPath<'_>,
+    oidn: Option<Network>,
+) -> PyResult<Image> {
     let (picture, name) = image.named(py, "the image")?;
     let denoised = py.detach(|| {
-        let network = oidn.find()?;
+        let network = oidn.map_or(Ok(None), Network::find)?;
         denoised(&picture, network.as_ref()).map_err(|reason| format!("{name}: {reason}"))
     });
     let denoised = denoised.map_err(value_error)?;

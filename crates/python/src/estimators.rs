@@ -106,23 +106,23 @@ impl EstimatorComparison {
 
 /// Compares estimators on a scene: their means, errors, times and efficiencies, each with its interval.
 ///
-/// integrators, samplers, filters: names to combine; the scene's own for an empty list. Two estimators or more.
+/// integrators, samplers, filters: names to combine; the scene's own if None. Two estimators or more.
 /// seconds: the time for all rendering together (s). tolerance: the difference of means that would matter, relative.
 /// reference: the file of a converged image to measure errors against; without one it is rendered by the first estimator.
 /// seed, threads and progress: as for `render`.
 ///
 /// Raises SceneError for what the scene cannot be rendered with, and ValueError if the time is not enough. Ctrl-C stops it.
 #[pyfunction]
-#[pyo3(signature = (scene, integrators=Vec::new(), *, seconds, samplers=Vec::new(), filters=Vec::new(), tolerance=0.01,
+#[pyo3(signature = (scene, integrators=None, *, seconds, samplers=None, filters=None, tolerance=0.01,
     reference=None, seed=0, threads=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "Python has names for them")]
 pub(crate) fn estimators(
     py: Python<'_>,
     scene: PyRef<'_, Scene>,
-    integrators: Vec<String>,
+    integrators: Option<Vec<String>>,
     seconds: f64,
-    samplers: Vec<String>,
-    filters: Vec<String>,
+    samplers: Option<Vec<String>>,
+    filters: Option<Vec<String>>,
     tolerance: f64,
     reference: Option<PathBuf>,
     seed: u64,
@@ -135,6 +135,8 @@ pub(crate) fn estimators(
         )));
     }
     let report = ProgressReport::of(progress)?;
+    let [integrators, samplers, filters] =
+        [integrators, samplers, filters].map(Option::unwrap_or_default);
     let call = format!(
         "et.estimators(scene, {integrators:?}, seconds={seconds}, samplers={samplers:?}, filters={filters:?}, seed={seed})"
     );

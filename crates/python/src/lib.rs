@@ -4,6 +4,7 @@
 //! The types that Python's tools see are in `etalon.pyi`.
 
 mod comparison;
+mod conform;
 mod denoise;
 mod dict;
 mod errors;
@@ -25,6 +26,8 @@ mod watched;
 mod etalon {
     #[pymodule_export]
     use crate::comparison::{Comparison, compare};
+    #[pymodule_export]
+    use crate::conform::{Conformance, conform};
     #[pymodule_export]
     use crate::denoise::denoise;
     #[pymodule_export]

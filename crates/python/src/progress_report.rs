@@ -29,6 +29,11 @@ impl Watch {
         }
     }
 
+    /// Set when somebody asks to stop.
+    pub(crate) fn stopped(&self) -> &AtomicBool {
+        &self.stopped
+    }
+
     /// Asks to stop.
     pub(crate) fn stop(&self) {
         self.stopped.store(true, Ordering::Relaxed);
