@@ -1,22 +1,29 @@
 """Etalon renders scenes with their statistical errors, and decides whether pictures agree."""
 
 import os
-from typing import Any, Callable, Dict, Iterable, List, Literal, Optional, Tuple, TypedDict, Union, final
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Literal, Optional, Sequence, Tuple, TypedDict, Union, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
     "Comparison",
+    "Conformance",
+    "Estimator",
+    "EstimatorComparison",
     "Image",
     "Scene",
     "SceneError",
     "Transform",
     "compare",
+    "conform",
+    "denoise",
     "dict_to_xml",
+    "estimators",
     "load_dict",
     "load_file",
     "load_string",
+    "merge",
     "read",
     "render",
 ]
@@ -92,7 +99,7 @@ class Image:
         rows × columns × colours × 3: the mean over replicates, and the lower and upper end of its interval.
         """
     def save(self, path: _Path) -> None:
-        """Writes an image with everything (.exr), or a picture to look at (.png)."""
+        """Writes an image with everything (.exr; a part that `merge` takes if it is one), or a picture to look at (.png)."""
     @staticmethod
     def from_replicates(pictures: Iterable[ArrayLike], *, spp: int = 1, program: str = "") -> Image:
         """Pictures of one scene with different, independent seeds, by any renderer, as one image with its errors.
@@ -112,6 +119,9 @@ class Image:
     @property
     def mean_relative_standard_error(self) -> Optional[float]:
         """√ of the mean of s² / (m² + 0.01) over pixels and colours, with mean m and standard error s."""
+    @property
+    def relative_standard_error(self) -> Optional[float]:
+        """√(Σ ⟨s²⟩ / Σ m²), with means over the image of each colour and of s², and sums over colours; None if it is black."""
     @property
     def metadata(self) -> Dict[str, Any]:
         """Version, scene, integrator, sampler, spp, replicates, seed, film, …; empty for pictures of other programs."""
@@ -138,6 +148,86 @@ class Comparison:
     @property
     def notes(self) -> List[str]:
         """What one should know to read the verdict: why the images cannot be judged, a seed that both share, …"""
+    def report(self, path: _Path) -> None:
+        """Writes a self-contained page (HTML)."""
+    def __bool__(self) -> bool: ...
+
+@final
+class Estimator:
+    """What was found about one estimator; figures are of one picture of `spp` samples per pixel, at equal time."""
+
+    @property
+    def name(self) -> str:
+        """What tells it from the others, such as 'path' or 'path, sobol'."""
+    @property
+    def spp(self) -> int:
+        """Samples per pixel of one picture."""
+    @property
+    def pictures(self) -> int:
+        """Independent pictures that were rendered at equal time."""
+    @property
+    def mean(self) -> Tuple[float, float, float]:
+        """The means of red, green and blue over the image and all pictures (linear Rec. 709, the scene's units)."""
+    @property
+    def relative_mse(self) -> Optional[float]:
+        """The mean of (x − r)² / (r² + 0.01) with the reference r, of one picture."""
+    @property
+    def variance(self) -> Optional[float]:
+        """The part of `relative_mse` that is variance."""
+    @property
+    def bias_squared(self) -> Optional[float]:
+        """The part of `relative_mse` that is bias; an unbiased estimate, which may be negative."""
+    @property
+    def seconds(self) -> Optional[float]:
+        """The time of one picture (s)."""
+    @property
+    def efficiency(self) -> Optional[float]:
+        """1 / (relative_mse · seconds), in s⁻¹."""
+    @property
+    def gain(self) -> Optional[float]:
+        """How many times as efficient as the first estimator; None of the first."""
+    @property
+    def intervals(self) -> Dict[str, Optional[Tuple[float, float]]]:
+        """The intervals of 95 % of these figures, by name; None where there is none."""
+    @property
+    def differences(self) -> Dict[str, Optional[Tuple[float, float]]]:
+        """For each channel the interval of the relative difference from the first estimator's mean; empty of the first."""
+
+@final
+class EstimatorComparison:
+    """What came of comparing estimators: a mapping from their names; true if all have the same mean within the tolerance."""
+
+    @property
+    def verdict(self) -> Literal["equivalent", "different", "inconclusive"]:
+        """Whether the intervals of all differences between means lie within the tolerance, or one outside."""
+    @property
+    def notes(self) -> List[str]:
+        """What one should know before believing the figures."""
+    @property
+    def findings(self) -> Dict[str, Any]:
+        """Everything that was found, as docs/estimators-json.md has it."""
+    def keys(self) -> List[str]:
+        """The names; the others are compared to the first."""
+    def report(self, path: _Path) -> None:
+        """Writes a self-contained page (HTML)."""
+    def __getitem__(self, name: str, /) -> Estimator: ...
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __bool__(self) -> bool: ...
+
+@final
+class Conformance:
+    """What a renderer answered; true if it agrees in all that it can express."""
+
+    @property
+    def verdict(self) -> Literal["agrees", "differs", "broken", "undecided"]:
+        """The worst that was found, if not all agrees; 'undecided' is never a pass."""
+    @property
+    def verdicts(self) -> Dict[str, Literal["agrees", "differs", "broken", "undecided", "not supported"]]:
+        """For each question."""
+    @property
+    def findings(self) -> Dict[str, Any]:
+        """Everything that was found, as the `report.json` of `etalon conform run` has it."""
     def report(self, path: _Path) -> None:
         """Writes a self-contained page (HTML)."""
     def __bool__(self) -> bool: ...
@@ -210,10 +300,15 @@ def render(
     spp: Optional[int] = None,
     seed: Optional[int] = None,
     *,
+    error: Optional[float] = None,
+    seconds: Optional[float] = None,
+    replicates: Optional[int] = None,
     integrator: Optional[str] = None,
     size: Optional[Tuple[int, int]] = None,
     crop: Optional[Tuple[int, int, int, int]] = None,
     time: Optional[float] = None,
+    features: bool = False,
+    part: Optional[Tuple[int, int]] = None,
     threads: Optional[int] = None,
     progress: Union[None, bool, Callable[[float], object]] = None,
 ) -> Image:
@@ -221,10 +316,16 @@ def render(
 
     spp: samples per pixel, all replicates together.
     seed: the same one gives the same bits, whatever the threads, and those of the binary.
+    error: in place of spp, the `relative_standard_error` to reach (10⁻⁶ to 1). A pilot fixes how many samples are needed, and
+        is no part of the image; `notes` says so if the error is missed, as it is in one case of twenty or so.
+    seconds: in place of spp, about how long to render (s), pilot included.
+    replicates: independent estimates whose spread makes the standard error; 8 or somewhat more if None.
     integrator: a type for the innermost integrator.
     size: width and height of the whole film (pixels).
     crop: x, y, width and height of the part to render, with the bits that it has in the whole.
     time: the moment that the shutter counts from (units of scene time).
+    features: whether the image gets the channels that `denoise` needs.
+    part: (k, n): the k-th of n shares of the replicates alone, to be put together by `merge`.
     threads: as many as there are processors if None.
     progress: called with the fraction done, or True for a line on standard error.
 
@@ -233,6 +334,23 @@ def render(
 
 def read(path: _Path) -> Image:
     """Reads an EXR file, of Etalon or another program."""
+
+def merge(parts: Iterable[Union[Image, _Path]], *, partial: bool = False) -> Image:
+    """Puts the parts of an image together, as `render(…, part=(k, n))` and `etalon render --part k/n` make them.
+
+    parts: images or files, in any order. The result has the bits of a render that was not split.
+    partial: whether replicates may be missing; the result is a larger part then.
+    Raises ValueError for what is no part, parts of different renders or with common replicates, and missing replicates.
+    """
+
+def denoise(image: Union[Image, _Path], *, oidn: Union[None, bool, _Path] = None) -> Image:
+    """Denoises an image that was rendered with `features=True` (`etalon render --features`).
+
+    `standard_error()` of the result estimates its root mean square error, bias included. It has no replicates, and
+    `compare` makes no verdict of it.
+    oidn: True, or a path to it, to let Intel's Open Image Denoise 2 filter.
+    Raises ValueError if the image lacks the features, or the library is not found.
+    """
 
 def compare(
     a: Union[Image, _Path],
@@ -247,4 +365,49 @@ def compare(
     tolerance: the bias of an image's mean that would matter, relative to the channel's mean.
     tile_tolerance: that of a tile, relative to its own mean (plus `tolerance` of the image's).
     alpha: the probability of calling equal images different, over everything that is asked.
+    """
+
+def estimators(
+    scene: Scene,
+    integrators: Optional[Sequence[str]] = None,
+    *,
+    seconds: float,
+    samplers: Optional[Sequence[str]] = None,
+    filters: Optional[Sequence[str]] = None,
+    tolerance: float = 0.01,
+    reference: Optional[_Path] = None,
+    seed: int = 0,
+    threads: Optional[int] = None,
+    progress: Union[None, bool, Callable[[float], object]] = None,
+) -> EstimatorComparison:
+    """Compares estimators on a scene: their means, errors, times and efficiencies, each with its interval.
+
+    integrators, samplers, filters: names to combine; the scene's own if None. Two estimators or more.
+    seconds: the time for all rendering together (s).
+    tolerance: the difference of means that would matter, relative.
+    reference: the file of a converged image to measure errors against, instead of one by the first estimator.
+    Raises SceneError for what the scene cannot be rendered with, and ValueError if the time is not enough.
+    """
+
+def conform(
+    driver: _Path,
+    output: _Path,
+    *,
+    questions: Optional[Sequence[str]] = None,
+    tier: Literal["quick", "standard", "full"] = "standard",
+    workers: Optional[int] = None,
+    limit: int = 120,
+    python: Optional[_Path] = None,
+    etalon: Optional[_Path] = None,
+) -> Conformance:
+    """Asks a renderer questions with known answers.
+
+    driver: a TOML file that says how to run it (docs/testing-a-renderer.md), or the name of a driver that comes with Etalon.
+    output: the folder for scenes and pictures; those that are there already are not rendered again.
+    questions: their names; all if None.
+    workers: pictures at a time, each with one thread; as many as there are processors if None.
+    limit: the longest that a picture may take (s).
+    python, etalon: the programs that drivers call so; this Python and the binary on the PATH if None.
+
+    Ctrl-C waits for the pictures that are being rendered. Raises ValueError for what cannot be run or written.
     """

@@ -21,7 +21,11 @@ pub(crate) enum ImageOrPath<'py> {
 
 impl ImageOrPath<'_> {
     /// The image with its name in messages, which is this one if it has no file.
-    fn named(self, py: Python<'_>, name: &str) -> PyResult<(Arc<RenderedImage>, String)> {
+    pub(crate) fn named(
+        self,
+        py: Python<'_>,
+        name: &str,
+    ) -> PyResult<(Arc<RenderedImage>, String)> {
         let of = |image: &Image| {
             let path = image.path.as_ref().map(|path| path.display().to_string());
             (

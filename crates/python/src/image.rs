@@ -2,10 +2,11 @@
 
 use crate::errors::{image_error, place_error, read_error, value_error};
 use crate::planes::{interleaved, picture, plane};
-use etalon_film::{Metadata, RenderFacts, RenderedImage, read_developed};
+use etalon_film::{Metadata, Part, RenderFacts, RenderedImage, read_developed};
 use etalon_images::{Error, png};
 use etalon_render::judge::replicates;
 use etalon_render::seeds::Seeds;
+use etalon_render::target::Noise;
 use etalon_render::write_guard::WriteGuard;
 use etalon_statistics::{Estimate, Replicates};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArray4, PyArrayMethods};
@@ -22,6 +23,8 @@ pub(crate) struct Image {
     pub(crate) developed: Arc<RenderedImage>,
     /// Its file, if it was read.
     pub(crate) path: Option<PathBuf>,
+    /// Its exact sums, if it is a part of an image that was made here.
+    pub(crate) part: Option<Arc<Part>>,
     notes: Vec<String>,
 }
 
@@ -31,7 +34,17 @@ impl Image {
         Self {
             developed: Arc::new(developed),
             path,
+            part: None,
             notes,
+        }
+    }
+
+    /// The picture of some of an image's replicates.
+    pub(crate) fn of_part(part: Arc<Part>, notes: Vec<String>) -> Self {
+        let picture = part.picture();
+        Self {
+            part: Some(part),
+            ..Self::new(picture, None, notes)
         }
     }
 
@@ -129,6 +142,15 @@ impl Image {
         self.developed.mean_relative_standard_error()
     }
 
+    /// One figure for the noise in which bright pixels decide, that `render(…, error=…)` aims at: √(Σ ⟨s²⟩ / Σ m²), with the mean m
+    /// of a colour over the image, the mean ⟨s²⟩ over its pixels of the squared standard error, and sums over the colours.
+    ///
+    /// None without standard errors, or if the image is black.
+    #[getter]
+    fn relative_standard_error(&self) -> Option<f64> {
+        Noise::of(&self.developed)?.relative()
+    }
+
     /// What the file says of itself: version, scene, integrator, sampler, spp, replicates, seed, film, … Empty for
     /// pictures of other programs. The means of tiles are left to `tiles()`.
     #[getter]
@@ -209,7 +231,10 @@ impl Image {
             }
         };
         WriteGuard::default().claim(&path).map_err(place_error)?;
-        let written = py.detach(|| write(&self.developed, &path));
+        let written = py.detach(|| match (&self.part, extension.as_deref()) {
+            (Some(part), Some("exr")) => part.write_exr(&path),
+            _ => write(&self.developed, &path),
+        });
         written.map_err(|error| image_error(&error))
     }
 

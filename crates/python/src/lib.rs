@@ -4,16 +4,22 @@
 //! The types that Python's tools see are in `etalon.pyi`.
 
 mod comparison;
+mod conform;
+mod denoise;
 mod dict;
 mod errors;
+mod estimator;
+mod estimators;
 mod image;
 mod listing;
+mod merge;
 mod origin;
 mod planes;
 mod progress_report;
 mod render;
 mod scene;
 mod transform;
+mod watched;
 
 /// Etalon renders scenes with their statistical errors, and decides whether pictures agree.
 #[pyo3::pymodule]
@@ -21,9 +27,19 @@ mod etalon {
     #[pymodule_export]
     use crate::comparison::{Comparison, compare};
     #[pymodule_export]
+    use crate::conform::{Conformance, conform};
+    #[pymodule_export]
+    use crate::denoise::denoise;
+    #[pymodule_export]
     use crate::errors::SceneError;
     #[pymodule_export]
+    use crate::estimator::Estimator;
+    #[pymodule_export]
+    use crate::estimators::{EstimatorComparison, estimators};
+    #[pymodule_export]
     use crate::image::{Image, read};
+    #[pymodule_export]
+    use crate::merge::merge;
     #[pymodule_export]
     use crate::render::render;
     #[pymodule_export]

@@ -9,13 +9,29 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 #[derive(Default)]
 pub(crate) struct Watch {
     done: AtomicU64,
+    /// Samples of all, once it is known how many there will be.
+    all: AtomicU64,
     stopped: AtomicBool,
 }
 
 impl Watch {
-    /// Samples taken so far.
-    pub(crate) fn done(&self) -> u64 {
-        self.done.load(Ordering::Relaxed)
+    /// So many more samples will be taken.
+    pub(crate) fn expect(&self, samples: u64) {
+        let all = self.done.load(Ordering::Relaxed).saturating_add(samples);
+        self.all.store(all, Ordering::Relaxed);
+    }
+
+    /// The fraction that is done: 0 as long as a pilot has not fixed how much there is to do.
+    pub(crate) fn fraction(&self) -> f64 {
+        match self.all.load(Ordering::Relaxed) {
+            0 => 0.0,
+            all => (self.done.load(Ordering::Relaxed) as f64 / all as f64).min(1.0),
+        }
+    }
+
+    /// Set when somebody asks to stop.
+    pub(crate) fn stopped(&self) -> &AtomicBool {
+        &self.stopped
     }
 
     /// Asks to stop.

@@ -1,57 +1,78 @@
-//! Rendering, in a way that leaves the interpreter to others and hears Ctrl-C.
+//! Rendering: so many samples, or as many as an error or a time asks for.
 
 use crate::errors::{of_diagnostics, value_error};
 use crate::image::Image;
 use crate::progress_report::{ProgressReport, Watch};
 use crate::scene::Scene;
-use etalon_film::{FilmSize, Framing};
-use etalon_integrators::RenderPlan;
-use etalon_params::Diagnostic;
-use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderOptions, Rendered};
+use crate::watched::watched;
+use etalon_film::{FilmSize, Framing, RenderedImage};
+use etalon_integrators::{RenderPlan, ReplicateRange};
+use etalon_render::pilot::Failure;
+use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderControls, RenderOptions, Rendered};
+use etalon_render::target::{self, Noise, Pilot, Target};
 use glam::UVec2;
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::num::NonZeroU32;
-use std::panic::resume_unwind;
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::thread;
-use std::time::Duration;
+use std::sync::Arc;
+use std::time::Instant;
 
-/// How often signals are looked for and progress is told.
-const TICK: Duration = Duration::from_millis(100);
-
-/// The most threads, as for the binary.
-const MOST_THREADS: usize = 1024;
+/// The most replicates, as for the binary.
+const MOST_REPLICATES: u32 = 4096;
 
 /// Renders a scene.
 ///
 /// spp: samples per pixel, all replicates together, if not the scene's.
 /// seed: if not the scene's. The same seed gives the same bits, whatever the threads, and those of the binary.
+/// error: in place of spp, the `relative_standard_error` to reach, such as 0.01. A pilot of 64 samples per pixel, which are no
+/// part of the image, fixes how many are needed; `spp` and `replicates` of its metadata give the same image again. In
+/// one case of twenty or so the error is missed; `image.notes` says so.
+/// seconds: in place of spp, about how long to render (s), the pilot that fixes the samples included.
+/// replicates: independent estimates whose spread makes the standard error; 8 or somewhat more if None.
 /// integrator: a type for the innermost integrator instead of its own.
 /// size: (width, height) of the whole film in pixels, instead of the scene's.
 /// crop: (x, y, width, height): this part of the film alone, with the bits that it has in the whole.
 /// time: the moment that the shutter counts from (units of scene time).
+/// features: whether the image gets the channels that `denoise` needs.
+/// part: (k, n): the k-th of n shares of the replicates alone, for `merge` to put together. The same spp and seed for all.
 /// threads: how many; as many as there are processors if None.
 /// progress: called with the fraction done, or True for a line on standard error.
 ///
 /// Ctrl-C stops the render and raises KeyboardInterrupt. Raises SceneError if the scene cannot be rendered so.
 #[pyfunction]
-#[pyo3(signature = (scene, spp=None, seed=None, *, integrator=None, size=None, crop=None, time=None, threads=None, progress=None))]
+#[pyo3(signature = (scene, spp=None, seed=None, *, error=None, seconds=None, replicates=None, integrator=None, size=None,
+    crop=None, time=None, features=false, part=None, threads=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "Python has names for them")]
 pub(crate) fn render(
     py: Python<'_>,
     scene: PyRef<'_, Scene>,
     spp: Option<NonZeroU32>,
     seed: Option<u64>,
+    error: Option<f64>,
+    seconds: Option<f64>,
+    replicates: Option<NonZeroU32>,
     integrator: Option<String>,
     size: Option<[u32; 2]>,
     crop: Option<[u32; 4]>,
     time: Option<f64>,
+    features: bool,
+    part: Option<(u32, u32)>,
     threads: Option<NonZeroU32>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<Image> {
     if let Some(time) = time.filter(|time| !time.is_finite()) {
         return Err(value_error(format!("time is {time}: it must be finite")));
+    }
+    if let Some(count) = replicates.filter(|count| count.get() > MOST_REPLICATES) {
+        return Err(value_error(format!(
+            "replicates is {count}: there may be {MOST_REPLICATES} at most"
+        )));
+    }
+    let target = target(spp, error, seconds)?;
+    if part.is_some() && (features || target.is_some()) {
+        return Err(value_error(
+            "a part has spp samples per pixel, and no features",
+        ));
     }
     let report = ProgressReport::of(progress)?;
     let is_other = integrator.is_some() || size.is_some() || crop.is_some() || time.is_some();
@@ -66,78 +87,112 @@ pub(crate) fn render(
             };
         }),
     )?;
-    let plan = pipeline::plan(
-        &loaded,
-        &RenderOptions {
-            spp: spp.map(NonZeroU32::get),
-            seed,
-            ..RenderOptions::default()
-        },
-    );
-    let pool = threads.map(pool).transpose()?;
-    let rendered = py.detach(|| watched(&loaded, &plan, pool.as_ref(), &report));
-    if let Ok(Ok(_)) = &rendered {
-        report.tell(py, 1.0)?;
+    let amount = RenderOptions {
+        replicates: replicates.map(NonZeroU32::get),
+        spp: spp.map(NonZeroU32::get),
+        seed,
+        // Blocks of one sequence overstate the noise that a denoiser is to take away.
+        independent_replicates: features,
+        ..RenderOptions::default()
+    };
+    let mut plan = pipeline::plan(&loaded, &amount);
+    plan.share = part.map(|part| share(part, plan.replicates)).transpose()?;
+    let job = |watch: &Watch| rendered(&loaded, plan, target, amount.replicates, features, watch);
+    let rendered = watched(py, threads, &report, job)?;
+    let rendered = rendered.map_err(|failure| match failure {
+        Failure::Refused(refusal) => of_diagnostics(&[refusal], &loaded.sources, &scene.keys()),
+        Failure::Cancelled => PyKeyboardInterrupt::new_err(()),
+    })?;
+    let (image, mut notes) = (rendered.developed, rendered.outcome.remarks);
+    if let Some(Target::Error(aim)) = target {
+        notes.extend(missed(aim, &image));
     }
-    report.end(py)?;
-    let rendered =
-        rendered?.map_err(|refusal| of_diagnostics(&[refusal], &loaded.sources, &scene.keys()))?;
-    Ok(Image::new(
-        rendered.developed,
-        None,
-        rendered.outcome.remarks,
-    ))
+    Ok(match rendered.part {
+        Some(part) => Image::of_part(Arc::new(part), notes),
+        None => Image::new(image, None, notes),
+    })
 }
 
-/// So many threads.
-fn pool(threads: NonZeroU32) -> PyResult<ThreadPool> {
-    let threads = threads.get() as usize;
-    if threads > MOST_THREADS {
+/// The replicates of the k-th part of n.
+fn share((number, count): (u32, u32), replicates: u32) -> PyResult<ReplicateRange> {
+    let share =
+        (number.checked_sub(1)).and_then(|index| ReplicateRange::of(replicates, index, count));
+    share.ok_or_else(|| {
+        value_error(format!(
+            "part is ({number}, {count}): it must be (k, n) with k from 1 to n, and n at most the number of replicates, {replicates}"
+        ))
+    })
+}
+
+/// What is to be said if an image has not the relative standard error that was aimed at.
+fn missed(aim: f64, image: &RenderedImage) -> Option<String> {
+    let reached = Noise::of(image)?.relative()?;
+    let (reached, percent) = (100.0 * reached, 100.0 * aim);
+    (reached > percent).then(|| {
+        format!(
+            "the target is missed: relative standard error {reached:.3} % instead of {percent} %"
+        )
+    })
+}
+
+/// What the image is to reach, if it is not a number of samples.
+fn target(
+    spp: Option<NonZeroU32>,
+    error: Option<f64>,
+    seconds: Option<f64>,
+) -> PyResult<Option<Target>> {
+    let given = [
+        ("spp", spp.is_some()),
+        ("error", error.is_some()),
+        ("seconds", seconds.is_some()),
+    ];
+    let given: Vec<&str> = given.iter().filter(|g| g.1).map(|g| g.0).collect();
+    if given.len() > 1 {
         return Err(value_error(format!(
-            "threads is {threads}: there may be {MOST_THREADS} at most"
+            "{} each fix the number of samples: give one of them",
+            given.join(" and ")
         )));
     }
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|error| value_error(format!("cannot start threads: {error}")))
+    // As the binary has it.
+    for (name, value, least, most) in [("error", error, 1e-6, 1.0), ("seconds", seconds, 1e-3, 1e8)]
+    {
+        if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
+            return Err(value_error(format!(
+                "{name} is {value}: it must lie between {least} and {most}"
+            )));
+        }
+    }
+    Ok(error.map(Target::Error).or(seconds.map(Target::Seconds)))
 }
 
-/// Renders on these threads, or on those that all renders share. Meanwhile this one, to which Python sends signals,
-/// looks for them and tells what is done.
-///
-/// The outer error is Python's: Ctrl-C, or what the callable raised.
-fn watched(
+/// Renders, after a pilot if there is a target.
+fn rendered(
     loaded: &Loaded,
-    plan: &RenderPlan,
-    pool: Option<&ThreadPool>,
-    report: &ProgressReport,
-) -> PyResult<Result<Rendered, Diagnostic>> {
-    let pixels = loaded.compiled.film.crop_size.as_dvec2().element_product();
-    let samples = pixels * f64::from(plan.replicates) * f64::from(plan.samples_per_replicate);
-    let watch = Watch::default();
-    thread::scope(|scope| {
-        let (alive, ended) = channel::<()>();
-        let watch = &watch;
-        let worker = scope.spawn(move || {
-            let _alive = alive;
-            let render = || pipeline::render(loaded, plan, watch);
-            match pool {
-                Some(pool) => pool.install(render),
-                None => render(),
-            }
-        });
-        let mut outcome = Ok(());
-        while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
-            if outcome.is_ok() {
-                outcome = Python::attach(|py| {
-                    py.check_signals()?;
-                    report.tell(py, (watch.done() as f64 / samples).min(1.0))
-                });
-                if outcome.is_err() {
-                    watch.stop();
-                }
-            }
-        }
-        let rendered = worker.join().unwrap_or_else(|panic| resume_unwind(panic));
-        outcome.map(|()| rendered)
-    })
+    mut plan: RenderPlan,
+    target: Option<Target>,
+    replicates: Option<u32>,
+    features: bool,
+    watch: &Watch,
+) -> Result<Rendered, Failure> {
+    if let Some(target) = target {
+        let pilot = Pilot {
+            samples: target::PILOT,
+            distribution: None,
+            start: Instant::now(),
+        };
+        plan = target::fix(loaded, &plan, target, pilot, replicates, watch)?.plan;
+    }
+    let pixels = loaded
+        .compiled
+        .film
+        .crop_size
+        .as_u64vec2()
+        .element_product();
+    let samples = u64::from(plan.share().count) * u64::from(plan.samples_per_replicate);
+    watch.expect(pixels.saturating_mul(samples));
+    let manner = RenderControls {
+        features,
+        ..RenderControls::default()
+    };
+    Ok(pipeline::render_as(loaded, &plan, manner, watch)?)
 }

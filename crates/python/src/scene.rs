@@ -4,7 +4,7 @@ use crate::dict::{Keys, SceneDict, changes};
 use crate::errors::scene_error;
 use crate::listing::{Listing, to_python};
 use crate::origin::{Origin, Text};
-use etalon_render::pipeline::{LoadOptions, Loaded};
+use etalon_render::pipeline::{LoadError, LoadOptions, Loaded};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBool, PyDict};
 use std::path::PathBuf;
@@ -48,9 +48,19 @@ impl Scene {
         };
         let mut options = self.options.clone();
         change(&mut options);
-        let loaded = py.detach(|| self.origin.load(&options, &self.options));
+        let loaded = py.detach(|| self.load_again(&options));
         let loaded = loaded.map_err(|error| scene_error(&error, &self.keys()))?;
         Ok(Arc::new(loaded))
+    }
+
+    /// The scene read and compiled with other options.
+    pub(crate) fn load_again(&self, options: &LoadOptions) -> Result<Loaded, LoadError> {
+        self.origin.load(options, &self.options)
+    }
+
+    /// The options that it was compiled with.
+    pub(crate) fn options(&self) -> &LoadOptions {
+        &self.options
     }
 
     /// The keys of its dict, if it has one.

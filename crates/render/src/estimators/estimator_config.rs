@@ -11,7 +11,6 @@ use etalon_integrators::AnyIntegrator;
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Sources, Span, Spanned};
 use etalon_sampling::SamplerKind;
 use etalon_scene::{Compiled, LightSamplerKind};
-use std::path::Path;
 use std::sync::Arc;
 
 /// An estimator.
@@ -44,22 +43,25 @@ pub struct Lists<'a> {
     pub light_choosers: &'a [LightSamplerKind],
 }
 
-/// Reads the scene, and makes every combination of the lists.
+/// How a scene is loaded with these options.
+pub type Load<'a> = &'a dyn Fn(&LoadOptions) -> Result<Loaded, LoadError>;
+
+/// Loads the scene, and makes every combination of the lists.
 ///
 /// # Errors
 /// What is wrong with the scene or the lists, as for [`pipeline::load`].
 pub fn gather(
-    path: &Path,
+    load: Load<'_>,
     options: &LoadOptions,
     lists: &Lists<'_>,
 ) -> Result<(Loaded, Vec<EstimatorConfig>), LoadError> {
-    let load = |name: Option<&String>, light_chooser: Option<&LightSamplerKind>| {
+    let load_with = |name: Option<&String>, light_chooser: Option<&LightSamplerKind>| {
         let options = LoadOptions {
             integrator: name.cloned(),
             light_chooser: light_chooser.copied().or(options.light_chooser),
             ..options.clone()
         };
-        pipeline::load(path, &options)
+        load(&options)
     };
     let choosers: Vec<String> = (lists.light_choosers.iter())
         .map(|chooser| chooser.name().to_owned())
@@ -72,16 +74,16 @@ pub fn gather(
     ] {
         refuse_repeated(option, names)?;
     }
-    let scene = load(lists.integrators.first(), lists.light_choosers.first())?;
+    let scene = load_with(lists.integrators.first(), lists.light_choosers.first())?;
     let mut integrators = vec![(scene.integrator.clone(), scene.integrator_name.clone())];
     for name in lists.integrators.iter().skip(1) {
         // Only the integrator is kept: estimators see the very same scene.
-        let loaded = load(Some(name), None)?;
+        let loaded = load_with(Some(name), None)?;
         integrators.push((loaded.integrator, loaded.integrator_name));
     }
     let mut scenes = vec![(scene.compiled.clone(), choosers.first())];
     for (chooser, name) in (lists.light_choosers.iter().zip(&choosers)).skip(1) {
-        let loaded = load(lists.integrators.first(), Some(chooser))?;
+        let loaded = load_with(lists.integrators.first(), Some(chooser))?;
         scenes.push((loaded.compiled, Some(name)));
     }
     let samplers = samplers(lists.samplers, scene.compiled.sampler.kind)?;

@@ -2,13 +2,13 @@
 
 use super::analysis;
 use super::cell::{self, Cell};
-use super::estimator_config::{self, EstimatorConfig, Lists};
+use super::estimator_config::{self, EstimatorConfig, Lists, Load};
 use super::findings::Findings;
 use super::options::Options;
 use super::reference::Reference;
 use super::schedule::{FEWEST, LADDER, Pace, Schedule, Share, Size};
 use crate::loaded::{LoadError, Loaded};
-use crate::memory;
+use crate::{memory, pipeline};
 use etalon_integrators::Progress;
 use etalon_params::Diagnostic;
 use etalon_sampling::hash::{derived_key, stream_key};
@@ -95,6 +95,18 @@ impl Trial {
     /// [`Failure::Impossible`] for fewer than two estimators, for a reference that does not fit, or
     /// if the time is not enough (it says what would be).
     pub fn prepare(path: &Path, options: &Options) -> Result<Self, Failure> {
+        Self::prepare_loaded(&|load| pipeline::load(path, load), options, &())
+    }
+
+    /// As [`Trial::prepare`], of a scene that is loaded in this way; `progress` may stop the pilot.
+    ///
+    /// # Errors
+    /// As [`Trial::prepare`], and [`Failure::Cancelled`].
+    pub fn prepare_loaded(
+        load: Load<'_>,
+        options: &Options,
+        progress: &dyn Progress,
+    ) -> Result<Self, Failure> {
         if !(options.seconds > 0.0 && options.seconds.is_finite()) {
             return Err("the time must be a positive number of seconds"
                 .to_owned()
@@ -111,7 +123,7 @@ impl Trial {
             filters: &options.filters,
             light_choosers: &options.light_choosers,
         };
-        let (scene, entrants) = estimator_config::gather(path, &options.load, &lists)?;
+        let (scene, entrants) = estimator_config::gather(load, &options.load, &lists)?;
         if let [only] = entrants.as_slice() {
             return Err(format!(
                 "`{}` alone is no comparison: name two or more integrators, samplers or filters",
@@ -126,7 +138,7 @@ impl Trial {
             .transpose()?;
         check_memory(&scene, &entrants)?;
         let start = Instant::now();
-        let paces = pilot(&entrants, options)?;
+        let paces = pilot(&entrants, options, progress)?;
         let left = options.seconds - start.elapsed().as_secs_f64();
         let share = reference.is_none().then_some(options.reference_share);
         let schedule = Schedule::fix(&paces, left, share, options.picture_seconds).map_err(|needed| {
@@ -134,7 +146,7 @@ impl Trial {
             let enough = (1.2 * (needed + spent)).max(0.1);
             format!(
                 "{} s are not enough for {} estimators: one sample per pixel takes up to {:.2} s{}, \
-                 and each renders 16 pictures or more; --time {} would do",
+                 and each renders 16 pictures or more; {} s would do",
                 options.seconds,
                 paces.len(),
                 paces.iter().map(|p| p.seconds).fold(0.0, f64::max),
@@ -322,20 +334,28 @@ const PILOT_SHARE: f64 = 0.05;
 const LONG_ENOUGH: f64 = 0.05;
 
 /// The pace of every estimator, from pictures of 1, 4, 16, … samples per pixel.
-fn pilot(entrants: &[EstimatorConfig], options: &Options) -> Result<Vec<Pace>, Failure> {
+fn pilot(
+    entrants: &[EstimatorConfig],
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Vec<Pace>, Failure> {
     let each = PILOT_SHARE * options.seconds / entrants.len() as f64;
     let pace = |(entrant, estimator): (usize, &EstimatorConfig)| {
         let sampler = estimator.sampler;
         let render = |step: u32, samples: u32| {
             let seed = seed(options, Purpose::Pilot, entrant, 0, step);
-            cell::render(estimator, samples, seed, &())
+            let rendered = cell::render(estimator, samples, seed, progress)?;
+            match progress.cancelled() {
+                true => Err(Failure::Cancelled),
+                false => Ok(rendered.seconds),
+            }
         };
         // The first picture finds cold caches; its time is spent, but does not count.
-        let cold = render(0, 1)?.seconds;
+        let cold = render(0, 1)?;
         let (mut counted, mut taken) = (0.0, 0.0);
         let (mut step, mut samples) = (1, 1);
         loop {
-            let seconds = render(step, samples)?.seconds;
+            let seconds = render(step, samples)?;
             counted += seconds;
             taken += f64::from(samples);
             if seconds >= LONG_ENOUGH || cold + counted + 4.0 * seconds > each {
