@@ -96,7 +96,7 @@ fn options_are_those_of_the_page() {
 fn options_of_the_pages_exist() {
     let tree = Cli::command();
     let mut known: BTreeSet<String> = tree.get_subcommands().flat_map(options).collect();
-    known.extend(["--help", "--version"].map(str::to_owned));
+    known.extend(["--help", "--version", "--verbose"].map(str::to_owned));
     let pages = std::fs::read_dir(root().join("docs")).expect("pages");
     let pages = pages.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     let pages = pages
@@ -108,10 +108,16 @@ fn options_of_the_pages_exist() {
         if name == "docs/validation-json.md" {
             continue;
         }
-        // Of `cargo xtask validate`.
-        let tiers = ["--thorough", "--full"];
+        // Of `cargo xtask validate`, Docker and Blender.
+        let others = [
+            "--thorough",
+            "--full",
+            "--rm",
+            "--background",
+            "--python-exit-code",
+        ];
         for word in option_words(&page(&name)).into_iter().map(str::to_owned) {
-            if !known.contains(&word) && !tiers.contains(&word.as_str()) {
+            if !known.contains(&word) && !others.contains(&word.as_str()) {
                 unknown.push(format!("{name}: {word}"));
             }
         }
