@@ -63,17 +63,17 @@ class Scene:
     def notes(self) -> List[str]:
         """Remarks about the scene that do not prevent rendering, each `file:line:column: note: …` or `key.path: note: …`."""
     @property
-    def parameters(self) -> Dict[str, str]:
+    def defines(self) -> Dict[str, str]:
         """The scene's `$parameters` with the values that count, as texts, in the order of the file."""
-    def values(self) -> Dict[str, Any]:
+    def parameters(self) -> Dict[str, Any]:
         """The values of the scene's plugins, by paths of keys such as 'ball.bsdf.reflectance', as far as they are given.
 
         A key is a name, or else an `id`, or else a type ('sphere', 'sphere_2', …); an object that several others share has
         its shortest path. Numbers, texts, and arrays: 3 for points, vectors and colours, n × 2 for spectra (nm, value),
         4 × 4 for transforms. Names of files and animations are left out.
         """
-    def with_values(self, values: Dict[str, Any]) -> Scene:
-        """The scene with other values: by paths as in `values()`, or of parameters that are not given yet.
+    def with_parameters(self, parameters: Dict[str, Any]) -> Scene:
+        """The scene with other values: by paths as in `parameters()`, or of parameters that are not given yet.
 
         This scene stays as it is. What is read for the first change, files included, stays in memory for further ones.
         A value is as in `load_dict`; three numbers in place of a colour, number or texture are a colour.

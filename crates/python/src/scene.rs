@@ -94,7 +94,7 @@ impl Scene {
 
     /// The scene's `$parameters` with the values that count, as texts, in the order of the file.
     #[getter]
-    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    fn defines<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         self.loaded.described.parameters.clone().into_py_dict(py)
     }
 
@@ -102,20 +102,20 @@ impl Scene {
     ///
     /// A key is a name, or else an `id`, or else a type ('sphere', 'sphere_2', …). Numbers, texts, and arrays: 3 for points,
     /// vectors and colours, n × 2 for spectra (nm, value), 4 × 4 for transforms.
-    fn values<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let listing = Listing::of(&self.loaded.described.root);
         let values = listing.values();
         let values = values.map(|(path, value)| Ok((path, to_python(py, value)?)));
         values.collect::<PyResult<Vec<_>>>()?.into_py_dict(py)
     }
 
-    /// The scene with other values: a dict from paths as `values()` has them, or of parameters that are not given yet.
+    /// The scene with other values: a dict from paths as `parameters()` has them, or of parameters that are not given yet.
     ///
     /// This scene stays as it is. What is read for the first change, files included, stays in memory for further ones. A value
     /// is as in `load_dict`; three numbers in place of a colour, number or texture are a colour.
-    fn with_values(&self, py: Python<'_>, values: &Bound<'_, PyDict>) -> PyResult<Self> {
+    fn with_parameters(&self, py: Python<'_>, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
         let listing = Listing::of(&self.loaded.described.root);
-        let changes = changes::read(values, &listing)?;
+        let changes = changes::read(parameters, &listing)?;
         Self::compile(py, self.origin.with(changes), self.options.clone())
     }
 

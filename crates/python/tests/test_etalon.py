@@ -36,7 +36,7 @@ def image(cornell):
 
 def test_scene_says_what_it_is(cornell):
     assert (cornell.integrator, cornell.size, cornell.notes) == ("path", (32, 24), [])
-    assert cornell.parameters["resx"] == "32" and cornell.parameters["max_depth"] == "8"
+    assert cornell.defines["resx"] == "32" and cornell.defines["max_depth"] == "8"
     assert "scene.xml, 32 × 24, path" in repr(cornell)
 
 
@@ -138,7 +138,7 @@ def test_mistakes_have_their_places(tmp_path):
 
 def test_texts_are_scenes(tmp_path, monkeypatch):
     scene = et.load_string(SMALL, glow=0.25)
-    assert "<string>, 8 × 4" in repr(scene) and scene.parameters == {"glow": "0.25"}
+    assert "<string>, 8 × 4" in repr(scene) and scene.defines == {"glow": "0.25"}
     assert et.render(scene, spp=256).numpy() == pytest.approx(0.25, rel=0.05)
     assert et.render(scene, spp=1, size=(3, 2)).numpy().shape == (2, 3, 3)
     with pytest.raises(et.SceneError, match=r"^<string>:1:1: error: "):

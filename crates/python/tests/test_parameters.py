@@ -8,22 +8,22 @@ from written_files import write_png
 
 
 def test_values_are_those_of_the_dict():
-    values = et.load_dict(scene(ball=ball(bsdf={"type": "diffuse", "reflectance": CHECKER}))).values()
+    values = et.load_dict(scene(ball=ball(bsdf={"type": "diffuse", "reflectance": CHECKER}))).parameters()
     assert values["ball.radius"] == 0.9 and values["sensor.film.width"] == 8
     assert values["ball.bsdf.reflectance.color1"] == pytest.approx([0.9, 0.2, 0.1])
     assert values["sensor.to_world"] == pytest.approx(LOOK.matrix)
     assert values["lamp.intensity"] == 20.0 and values["lamp.position"].tolist() == [1, -2, 3]
     spectrum = {"type": "spectrum", "value": [(400, 0.1), (700, 0.2)]}
-    lit = et.load_dict(with_bsdf(type="diffuse", reflectance=spectrum)).values()
+    lit = et.load_dict(with_bsdf(type="diffuse", reflectance=spectrum)).parameters()
     assert lit["ball.bsdf.reflectance"].tolist() == [[400, 0.1], [700, 0.2]]
 
 
 @pytest.mark.parametrize("name", PAIRS)
 def test_the_same_values_are_the_same_scene(name):
     loaded = et.load_dict(scene(**PAIRS[name][0]))
-    again = loaded.with_values(loaded.values())
+    again = loaded.with_parameters(loaded.parameters())
     assert np.array_equal(pixels(again), pixels(loaded))
-    assert list(again.values()) == list(loaded.values())
+    assert list(again.parameters()) == list(loaded.parameters())
 
 
 @pytest.mark.parametrize(
@@ -60,7 +60,7 @@ def test_the_same_values_are_the_same_scene(name):
 def test_a_changed_value_is_that_of_another_dict(path, value, parts):
     base = et.load_dict(scene())
     before = pixels(base)
-    changed = base.with_values({path: value})
+    changed = base.with_parameters({path: value})
     assert np.array_equal(pixels(changed), pixels(et.load_dict(scene(**parts))))
     assert not np.array_equal(pixels(changed), before) and np.array_equal(pixels(base), before)
     # What was changed stays so in other sizes, and with another integrator.
@@ -76,9 +76,9 @@ def test_changes_add_up_and_shared_objects_stay_shared():
     base = et.load_dict(
         scene(clay=clay, ball=ball(bsdf=ref), other={"type": "cube", "to_world": T().scale(0.3), "bsdf": ref})
     )
-    assert [key for key in base.values() if "reflectance" in key] == ["clay.reflectance"]
-    step = base.with_values({"clay.reflectance": [0.1, 0.1, 0.8]}).with_values({"ball.radius": 0.4})
-    final = step.with_values({"ball.radius": 0.6})
+    assert [key for key in base.parameters() if "reflectance" in key] == ["clay.reflectance"]
+    step = base.with_parameters({"clay.reflectance": [0.1, 0.1, 0.8]}).with_parameters({"ball.radius": 0.4})
+    final = step.with_parameters({"ball.radius": 0.6})
     clay = {"type": "diffuse", "reflectance": {"type": "rgb", "value": [0.1, 0.1, 0.8]}}
     same = et.load_dict(
         scene(
@@ -88,7 +88,7 @@ def test_changes_add_up_and_shared_objects_stay_shared():
     assert np.array_equal(pixels(final), pixels(same))
     hashes = [et.render(one, spp=1).metadata["scene_hash"] for one in (base, step, final)]
     assert len(set(hashes)) == 3
-    again = base.with_values({"clay.reflectance": [0.1, 0.1, 0.8], "ball.radius": 0.6})
+    again = base.with_parameters({"clay.reflectance": [0.1, 0.1, 0.8], "ball.radius": 0.6})
     assert et.render(again, spp=1).metadata["scene_hash"] == hashes[2]
 
 
@@ -96,7 +96,7 @@ def test_a_texture_becomes_a_colour():
     base = et.load_dict(with_bsdf(type="diffuse", reflectance=CHECKER))
     red = with_bsdf(type="diffuse", reflectance={"type": "rgb", "value": [0.9, 0.1, 0.1]})
     for value in ([0.9, 0.1, 0.1], {"type": "rgb", "value": [0.9, 0.1, 0.1]}):
-        assert np.array_equal(pixels(base.with_values({"ball.bsdf.reflectance": value})), pixels(et.load_dict(red)))
+        assert np.array_equal(pixels(base.with_parameters({"ball.bsdf.reflectance": value})), pixels(et.load_dict(red)))
 
 
 def test_files_are_read_once(tmp_path):
@@ -113,22 +113,22 @@ def test_files_are_read_once(tmp_path):
         )
     )
     base = et.load_file(path)
-    values = base.values()
+    values = base.parameters()
     assert values["sphere.radius"] == 0.9 and "rectangle.to_world" in values
     assert not [key for key in values if "filename" in key]
-    wanted = pixels(base.with_values({"sphere.radius": 0.5}))
+    wanted = pixels(base.with_parameters({"sphere.radius": 0.5}))
     for file in (path, picture, tmp_path / "a.ply"):
         file.unlink()
-    assert np.array_equal(pixels(base.with_values({"sphere.radius": 0.5})), wanted)
-    smaller = base.with_values({"sphere.radius": 0.7}).with_values({"sphere.radius": 0.5})
+    assert np.array_equal(pixels(base.with_parameters({"sphere.radius": 0.5})), wanted)
+    smaller = base.with_parameters({"sphere.radius": 0.7}).with_parameters({"sphere.radius": 0.5})
     assert np.array_equal(pixels(smaller), wanted)
     assert np.array_equal(et.render(smaller, spp=4, seed=1, crop=(2, 1, 4, 3)).numpy(), wanted[1:4, 2:6])
 
 
 def test_every_language_has_values(tmp_path):
     xml = et.load_string(scene_xml(second=PARTS_XML["ball"]))
-    assert {"sphere.radius", "sphere_2.radius", "point.position", "perspective.hdrfilm.width"} <= set(xml.values())
-    moved = xml.with_values({"sphere_2.center": [1, 0, 0], "sphere_2.radius": 0.3})
+    assert {"sphere.radius", "sphere_2.radius", "point.position", "perspective.hdrfilm.width"} <= set(xml.parameters())
+    moved = xml.with_parameters({"sphere_2.center": [1, 0, 0], "sphere_2.radius": 0.3})
     more = '<shape type="sphere"><float name="radius" value="0.3"/><point name="center" value="1, 0, 0"/></shape>'
     assert np.array_equal(pixels(moved), pixels(et.load_string(scene_xml(second=more))))
     pbrt = tmp_path / "a.pbrt"
@@ -141,8 +141,8 @@ def test_every_language_has_values(tmp_path):
         Shape "sphere" "float radius" RADIUS
         """.replace("RADIUS", "0.9"))
     base = et.load_file(pbrt)
-    (radius,) = [key for key in base.values() if key.endswith(".radius") and base.values()[key] == 0.9]
-    small = base.with_values({radius: 0.5})
+    (radius,) = [key for key in base.parameters() if key.endswith(".radius") and base.parameters()[key] == 0.9]
+    small = base.with_parameters({radius: 0.5})
     pbrt.write_text(pbrt.read_text().replace("0.9\n", "0.5\n"))
     assert np.array_equal(pixels(small), pixels(et.load_file(pbrt)))
 
@@ -165,7 +165,7 @@ def test_every_language_has_values(tmp_path):
 def test_mistakes_have_paths(changes, key, words):
     base = et.load_dict(with_bsdf(type="diffuse", reflectance={"type": "rgb", "value": 0.5}))
     with pytest.raises(et.SceneError) as caught:
-        base.with_values(changes)
+        base.with_parameters(changes)
     lines = str(caught.value).split("\n")
     assert [line for line in lines if line.startswith(f"{key}: error: ") and words in line], lines
     assert pixels(base).mean() > 0
@@ -174,10 +174,10 @@ def test_mistakes_have_paths(changes, key, words):
 def test_changes_that_lost_their_place_are_told(tmp_path):
     path = tmp_path / "scene.xml"
     path.write_text(scene_xml())
-    changed = et.load_file(path).with_values({"sphere.radius": 0.5})
+    changed = et.load_file(path).with_parameters({"sphere.radius": 0.5})
     path.write_text(scene_xml(ball=""))
     # Another integrator means that the file is read again.
     with pytest.raises(et.SceneError, match="the scene has nothing at `sphere.radius` with these options"):
         et.render(changed, integrator="direct")
     with pytest.raises(TypeError):
-        changed.with_values({3: 4})
+        changed.with_parameters({3: 4})
