@@ -30,6 +30,8 @@ __all__ = [
 
 _Path = Union[str, os.PathLike[str]]
 
+__version__: str
+
 class _Diagnostic(TypedDict):
     """A message about a scene; line and column count from 1, None where it has no place.
 

@@ -1,6 +1,7 @@
 //! Values on the command line: numbers within bounds, names of a list.
 
 use etalon_images::View;
+use etalon_render::target;
 use etalon_scene::{AcceleratorKind, LightSamplerKind, SensorChoice};
 use glam::UVec2;
 
@@ -29,7 +30,7 @@ pub(crate) fn parse_probability(text: &str) -> Result<f64, String> {
 pub(crate) fn parse_error(text: &str) -> Result<f64, String> {
     let error = text.parse().ok();
     error
-        .filter(|error| (1e-6..=1.0).contains(error))
+        .filter(|error| target::ERRORS.contains(error))
         .ok_or_else(|| "expected a number from 0.000001 to 1, such as 0.01 for 1 %".to_owned())
 }
 
@@ -53,7 +54,7 @@ pub(crate) fn parse_accelerator(text: &str) -> Result<AcceleratorKind, String> {
 pub(crate) fn parse_seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok();
     seconds
-        .filter(|seconds| (1e-3..=1e8).contains(seconds))
+        .filter(|seconds| target::SECONDS.contains(seconds))
         .ok_or_else(|| {
             "expected a number of seconds from 0.001 to 100000000, such as 60".to_owned()
         })

@@ -56,7 +56,7 @@ pub use kernel::{Kernel, apply};
 pub use ln::ln;
 pub use mask::{Mask, Select};
 pub use pow::pow;
-pub use simd_vector::{F32x8, F32x16, Mask8, Mask16, U32x8, U32x16};
+pub use simd_vector::{F32x8, F32x16, FUSES, Mask8, Mask16, U32x8, U32x16};
 pub use spectrum::{Spectral, Spectrum};
 pub use trigonometric::{sin_cos, sin_cos_turns};
 pub use vector3::{Vector, Vector3};

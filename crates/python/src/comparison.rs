@@ -54,16 +54,21 @@ impl Comparison {
     }
 }
 
+/// A verdict in the words of `etalon compare`.
+pub(crate) fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Agrees => "equivalent",
+        Verdict::Differs => "different",
+        Verdict::Undecided => "inconclusive",
+    }
+}
+
 #[pymethods]
 impl Comparison {
     /// 'equivalent', 'different' or 'inconclusive'. The last is never a pass.
     #[getter]
     fn verdict(&self) -> &'static str {
-        match self.compared.verdict() {
-            Verdict::Agrees => "equivalent",
-            Verdict::Differs => "different",
-            Verdict::Undecided => "inconclusive",
-        }
+        word(self.compared.verdict())
     }
 
     /// The interval of the relative bias of the image's mean, of the channel where it reaches farthest; None if the

@@ -1,5 +1,6 @@
 //! Which estimator is better on a scene, and whether all have the same mean.
 
+use crate::comparison::word;
 use crate::errors::{place_error, scene_error, value_error};
 use crate::estimator::Estimator;
 use crate::progress_report::{ProgressReport, Watch};
@@ -7,6 +8,7 @@ use crate::scene::Scene;
 use crate::watched::watched;
 use etalon_render::estimators::{Failure, Findings, Options, Trial, page, table};
 use etalon_render::write_guard::WriteGuard;
+use etalon_statistics::Verdict;
 use pyo3::exceptions::{PyKeyError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use std::num::NonZeroU32;
@@ -29,19 +31,7 @@ impl EstimatorComparison {
     /// Differences are to the first estimator, of each channel, relative to its mean; their intervals of 95 % hold together.
     #[getter]
     fn verdict(&self) -> &'static str {
-        let rows = self.findings.estimators.iter();
-        let differences = rows.flat_map(|row| &row.differences);
-        let (mut all_within, mut one_outside) = (true, false);
-        for difference in differences {
-            all_within &= difference.bound() <= self.tolerance;
-            one_outside |= (difference.interval)
-                .is_some_and(|[low, high]| low > self.tolerance || high < -self.tolerance);
-        }
-        match (all_within, one_outside) {
-            (true, _) => "equivalent",
-            (_, true) => "different",
-            _ => "inconclusive",
-        }
+        word(self.findings.verdict(self.tolerance))
     }
 
     /// The names of the estimators, the first of which the others are compared to.
@@ -90,7 +80,7 @@ impl EstimatorComparison {
     }
 
     fn __bool__(&self) -> bool {
-        self.verdict() == "equivalent"
+        self.findings.verdict(self.tolerance) == Verdict::Agrees
     }
 
     fn __repr__(&self) -> String {

@@ -24,6 +24,13 @@ mod watched;
 /// Etalon renders scenes with their statistical errors, and decides whether pictures agree.
 #[pyo3::pymodule]
 mod etalon {
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", etalon_render::VERSION)
+    }
+
     #[pymodule_export]
     use crate::comparison::{Comparison, compare};
     #[pymodule_export]

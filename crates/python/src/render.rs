@@ -153,12 +153,15 @@ fn target(
             given.join(" and ")
         )));
     }
-    // As the binary has it.
-    for (name, value, least, most) in [("error", error, 1e-6, 1.0), ("seconds", seconds, 1e-3, 1e8)]
-    {
-        if let Some(value) = value.filter(|value| !(least..=most).contains(value)) {
+    for (name, value, range) in [
+        ("error", error, target::ERRORS),
+        ("seconds", seconds, target::SECONDS),
+    ] {
+        if let Some(value) = value.filter(|value| !range.contains(value)) {
             return Err(value_error(format!(
-                "{name} is {value}: it must lie between {least} and {most}"
+                "{name} is {value}: it must lie between {} and {}",
+                range.start(),
+                range.end()
             )));
         }
     }

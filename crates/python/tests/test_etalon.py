@@ -259,3 +259,7 @@ def test_renders_leave_no_memory_behind(cornell):
     for index in range(20):
         render(index)
     assert resident() - before < 4
+
+
+def test_the_version_is_that_of_its_images(cornell):
+    assert et.__version__ == et.render(cornell, spp=8).metadata["version"]

@@ -3,11 +3,7 @@
 //! A seed gives the same bits wherever multiply-adds are fused: on x86-64 that is the level x86-64-v3 (AVX2 and FMA), which
 //! `.cargo/config.toml` of the repository asks for. That file travels neither with packages nor with `cargo install`.
 
-/// Whether multiply-adds are fused.
-const FUSES: bool = cfg!(any(
-    all(target_arch = "x86_64", target_feature = "fma"),
-    all(target_arch = "aarch64", target_feature = "neon")
-));
+use etalon_math::lane::FUSES;
 
 /// Whether the compiler used AVX2.
 const AVX2: bool = cfg!(all(target_arch = "x86_64", target_feature = "avx2"));

@@ -26,6 +26,7 @@ use etalon_integrators::{Progress, RenderPlan};
 use etalon_math::float64;
 use etalon_params::Diagnostic;
 use etalon_statistics::{Summary, student_t};
+use std::ops::RangeInclusive;
 use std::time::Instant;
 
 /// What an image is to reach.
@@ -39,6 +40,12 @@ pub enum Target {
 
 /// The confidence with which the error is reached.
 const CONFIDENCE: f64 = 0.95;
+
+/// The relative standard errors that may be asked for.
+pub const ERRORS: RangeInclusive<f64> = 1e-6..=1.0;
+
+/// The times (s) that may be asked for.
+pub const SECONDS: RangeInclusive<f64> = 1e-3..=1e8;
 
 /// Samples per pixel of a pilot, by default.
 pub const PILOT: u32 = 64;

@@ -11,7 +11,7 @@
 //! [`crate::dipole`].
 
 use crate::diffusion::Radial;
-use crate::dipole::{Dipole, DipolePair};
+use crate::dipole::{Dipole, DipolePair, flux};
 use crate::sggx::symmetric_matrix;
 use core::f32::consts::PI;
 use etalon_math::float;
@@ -37,7 +37,7 @@ pub(crate) struct AnisotropicDipole {
     rate: f32,
     /// α/(4π √|K|).
     scale: f32,
-    /// The height above the surface (m, below it for the first), what lies beneath each, and z of each.
+    /// The source and its image: the place (m, in the frame of the entry) and the distance from the surface (m).
     sources: [(Vec3, f32); 2],
     /// By which distances are chosen: dipoles as wide as this is along either principal direction.
     pub(crate) widths: DipolePair,
@@ -89,12 +89,6 @@ impl AnisotropicDipole {
         let image = below + 2.0 * (depth + beyond) * along / along.z;
         let rate = float::safe_sqrt(absorption);
         let depths = [depth, depth + 2.0 * beyond];
-        let total = 0.5
-            * albedo
-            * (depths
-                .map(|z| float::exp(-rate * z / along.z.sqrt()))
-                .iter())
-            .sum::<f32>();
         // On the surface, where K cuts it: the squares of how far light spreads along the principal directions.
         let [xx, yy] = [0, 1].map(|i| tensor.col(i)[i] - along[i] * along[i] / along.z);
         let xy = tensor.x_axis.y - along.x * along.y / along.z;
@@ -111,7 +105,8 @@ impl AnisotropicDipole {
             rate,
             scale: albedo * float::safe_sqrt(metric.determinant()) / (4.0 * PI),
             sources: [(below, depths[0]), (image, depths[1])],
-            widths: DipolePair::new(widths, [0.5 * total; 2]),
+            // Either has the flux of the whole.
+            widths: DipolePair::new(widths, widths.map(|dipole| 0.5 * dipole.total())),
         }
     }
 
@@ -119,17 +114,11 @@ impl AnisotropicDipole {
     pub(crate) fn value(&self, exit: &Exit) -> f32 {
         let flat = exit.offset.truncate();
         let at = flat.normalize_or(glam::Vec2::X) * exit.offset.length();
-        let flux = |(source, z): (Vec3, f32)| {
+        let leaving = |(source, z): (Vec3, f32)| {
             let y = at.extend(0.0) - source;
-            let rho = float::safe_sqrt(y.dot(self.metric * y));
-            z * (self.rate + 1.0 / rho) * float::exp(-self.rate * rho) / (rho * rho)
+            flux(self.rate, z, float::safe_sqrt(y.dot(self.metric * y)))
         };
-        self.scale * self.sources.map(flux).iter().sum::<f32>()
-    }
-
-    /// The distance within which next to all light leaves (m).
-    pub(crate) fn reach(&self, share: f32) -> f32 {
-        self.widths.sample(share)
+        self.scale * self.sources.map(leaving).iter().sum::<f32>()
     }
 }
 
@@ -171,8 +160,7 @@ mod tests {
     }
 
     /// Over the surface it integrates to what is known in closed form (rings in ln r, 0.5 %), flakes that lean included; light goes farther along
-    /// u where flakes' normals avoid u, and as far along v with u and v exchanged. The mutants that take K for K⁻¹, or leave the
-    /// image where it is without a grain, fail.
+    /// u where flakes' normals avoid u, and as far along v with u and v exchanged. The mutant that takes K for K⁻¹ fails.
     #[test]
     fn it_spreads_along_the_grain_and_keeps_the_flux() {
         for moments in [
@@ -204,5 +192,20 @@ mod tests {
         assert!(along(u, 4.0, 0.0) > 2.0 * along(u, 0.0, 4.0));
         let v = "0.5, 0.1, 0.4, 0, 0, 0";
         assert!((along(u, 4.0, 1.0) / along(v, 1.0, 4.0) - 1.0).abs() < 1e-5);
+    }
+
+    /// Source and image cancel on the plane z_b above the surface, flakes that lean included. The mutant that mirrors the source straight
+    /// up fails.
+    #[test]
+    fn nothing_is_left_on_the_extrapolated_boundary() {
+        let leaning = grain("0.4, 0.2, 0.4, 0, 0.25, 0.05");
+        let profile = AnisotropicDipole::new(&leaning, 0.05, 1.0, 0.2);
+        let [(source, near), (image, far)] = profile.sources;
+        let distance = |at: Vec3| at.dot(profile.metric * at).sqrt();
+        for (x, y) in [(0.0, 0.0), (2.0, -1.0), (-3.0, 0.5)] {
+            let at = Vec3::new(x, y, 0.5 * (far - near));
+            let [a, b] = [source, image].map(|from| distance(at - from));
+            assert!((a / b - 1.0).abs() < 1e-4, "{x} {y}: {a} {b}");
+        }
     }
 }

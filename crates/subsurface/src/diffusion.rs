@@ -232,7 +232,6 @@ impl Lane<'_> {
     fn reach(&self, share: f32) -> f32 {
         match self {
             Self::Multipole(profile) => profile.reach(share),
-            Self::AnisotropicDipole(profile) => profile.reach(share),
             _ => self.radial().sample(share),
         }
     }

@@ -101,12 +101,14 @@ impl Dipole {
     }
 }
 
+/// The flux (m⁻²) through a plane at the height `z` over a source of the flux 4π, at the distance `d` from it.
+pub(crate) fn flux(transport: f32, z: f32, d: f32) -> f32 {
+    z * (transport + 1.0 / d) * float::exp(-transport * d) / (d * d)
+}
+
 impl Radial for Dipole {
     fn value(&self, r: f32) -> f32 {
-        let part = |z: f32| {
-            let d = (r * r + z * z).sqrt();
-            z * (self.transport + 1.0 / d) * float::exp(-self.transport * d) / (d * d)
-        };
+        let part = |z: f32| flux(self.transport, z, (r * r + z * z).sqrt());
         self.albedo / (4.0 * PI) * self.depths.map(part).iter().sum::<f32>()
     }
 

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Shl, Shr, Sub};
 
 /// Whether `wide` fuses its multiply-add: where it does not, the rounding would differ from `f32`'s.
-const FUSES: bool = cfg!(any(
+pub const FUSES: bool = cfg!(any(
     all(
         any(target_arch = "x86", target_arch = "x86_64"),
         target_feature = "fma"

@@ -1,31 +1,40 @@
 //! The class of a plugin by its name alone: a dict says `sphere`, where XML says `<shape type="sphere">`.
 
 use etalon_params::{Class, Diagnostic, plugins, suggest};
+use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 /// All plugins that are built, of which tests know that the list is complete.
 const WORDS: &str = include_str!("../../plugins.toml");
 
+/// What is taken of the list.
+#[derive(Deserialize)]
+struct Words {
+    plugin: Vec<Plugin>,
+}
+
+#[derive(Deserialize)]
+struct Plugin {
+    class: String,
+    names: Vec<String>,
+}
+
 /// Name and class of every plugin that is built; of a name that two classes have, the class that is meant without further signs.
-fn built() -> &'static BTreeMap<&'static str, Class> {
-    static BUILT: OnceLock<BTreeMap<&str, Class>> = OnceLock::new();
+fn built() -> &'static BTreeMap<String, Class> {
+    static BUILT: OnceLock<BTreeMap<String, Class>> = OnceLock::new();
     BUILT.get_or_init(|| {
+        let words: Words = toml::from_str(WORDS).expect("a test reads it");
         let mut built = BTreeMap::new();
-        let mut class = None;
-        for line in WORDS.lines() {
-            if let Some(name) = line.strip_prefix("class = ") {
-                let name = name.trim_matches('"');
-                class = plugins::CLASSES.into_iter().find(|c| c.name() == name);
-            } else if let (Some(names), Some(class)) = (line.strip_prefix("names = "), class) {
-                let names = names.trim_matches(['[', ']']).split(", ");
-                for name in names.map(|name| name.trim_matches('"')) {
-                    // A texture of space is a volume, too; and most hair is the material.
-                    let first = *built.entry(name).or_insert(class);
-                    if first > class {
-                        built.insert(name, class);
-                    }
-                }
+        for plugin in words.plugin {
+            let mut classes = plugins::CLASSES.into_iter();
+            let Some(class) = classes.find(|class| class.name() == plugin.class) else {
+                continue;
+            };
+            for name in plugin.names {
+                // A texture of space is a volume, too; and most hair is the material.
+                let first = built.entry(name).or_insert(class);
+                *first = (*first).min(class);
             }
         }
         built
@@ -57,7 +66,7 @@ pub(super) fn unknown(name: &str) -> Diagnostic {
         "resources",
         "animation",
     ];
-    let names = || built().keys().copied().chain(others);
+    let names = || built().keys().map(String::as_str).chain(others);
     let near = plugins::called_otherwise(name).or_else(|| suggest::nearest(name, names()));
     let diagnostic = Diagnostic::error_nowhere(format!("there is no plugin `{name}`"));
     match near {

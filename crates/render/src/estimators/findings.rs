@@ -1,6 +1,7 @@
 //! What a comparison found: the schema of its JSON (`docs/estimators-json.md`).
 
 use super::reference::ReferenceOrigin;
+use etalon_statistics::Verdict;
 use serde::Serialize;
 
 /// Everything that was found.
@@ -45,6 +46,12 @@ pub type Row = EntrantResult;
 impl Findings {
     /// The version of the description that is written.
     pub const FORMAT: u32 = 1;
+
+    /// Whether all estimators have the mean of the first, to a relative tolerance.
+    pub fn verdict(&self, tolerance: f64) -> Verdict {
+        let differences = self.estimators.iter().flat_map(|row| &row.differences);
+        differences.fold(Verdict::Agrees, |all, one| all.and(one.verdict(tolerance)))
+    }
 }
 
 /// The reference.
@@ -121,6 +128,15 @@ impl Difference {
     pub fn bound(&self) -> f64 {
         self.interval
             .map_or(f64::INFINITY, |[low, high]| low.abs().max(high.abs()))
+    }
+
+    /// Whether the interval lies within the tolerance, or outside of it.
+    pub fn verdict(&self, tolerance: f64) -> Verdict {
+        match self.interval {
+            Some([low, high]) if low > tolerance || high < -tolerance => Verdict::Differs,
+            _ if self.bound() <= tolerance => Verdict::Agrees,
+            _ => Verdict::Undecided,
+        }
     }
 }
 
@@ -205,4 +221,29 @@ pub struct Pictures {
     pub reference: Vec<f32>,
     /// One picture at equal time by every estimator.
     pub estimators: Vec<Vec<f32>>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_verdict_is_that_of_the_interval() {
+        for (interval, verdict) in [
+            (Some([0.001, 0.002]), Verdict::Agrees),
+            (Some([-0.01, 0.01]), Verdict::Agrees),
+            (Some([0.02, 0.03]), Verdict::Differs),
+            (Some([-0.03, -0.02]), Verdict::Differs),
+            (Some([-0.02, 0.005]), Verdict::Undecided),
+            (None, Verdict::Undecided),
+        ] {
+            let difference = Difference {
+                channel: "R",
+                relative: 0.0,
+                interval,
+                method: None,
+            };
+            assert_eq!(difference.verdict(0.01), verdict, "{interval:?}");
+        }
+    }
 }
