@@ -67,18 +67,23 @@ class Scene:
     @property
     def defines(self) -> Dict[str, str]:
         """The scene's `$parameters` with the values that count, as texts, in the order of the file."""
-    def parameters(self) -> Dict[str, Any]:
+    def parameters(self, *, arrays: bool = False) -> Dict[str, Any]:
         """The values of the scene's plugins, by paths of keys such as 'ball.bsdf.reflectance', as far as they are given.
 
         A key is a name, or else an `id`, or else a type ('sphere', 'sphere_2', …); an object that several others share has
         its shortest path. Numbers, texts, and arrays: 3 for points, vectors and colours, n × 2 for spectra (nm, value),
         4 × 4 for transforms. Names of files and animations are left out.
+
+        arrays: whether what is in files is there, too, as copies: `data` of pictures (bytes as uint8, others linear float32)
+        and volumes, and of meshes `vertices`, `faces`, `normals`, `uv` and attributes, all as in `load_dict`.
         """
     def with_parameters(self, parameters: Dict[str, Any]) -> Scene:
         """The scene with other values: by paths as in `parameters()`, or of parameters that are not given yet.
 
         This scene stays as it is. What is read for the first change, files included, stays in memory for further ones.
-        A value is as in `load_dict`; three numbers in place of a colour, number or texture are a colour.
+        A value is as in `load_dict`; three numbers in place of a colour, number or texture are a colour; arrays, such as
+        'wall.vertices' or 'wall.bsdf.reflectance.data', are in place of those in files. Vertices that move get new normals,
+        unless these are given; with `vertices` and `faces` it is another mesh, of which nothing old remains.
         Raises SceneError with every mistake, each with its path.
         """
 

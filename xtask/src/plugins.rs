@@ -255,6 +255,13 @@ fn describe<'a>(
         (depending.into_iter())
             .map(|name| format!("`{}` has no default of `{name}`", plugin.names[0])),
     );
+    if let Some(array) = plugin.file {
+        let form = array.described();
+        let _ = write!(
+            out,
+            "\nPython may give an array, `data` ({form}), in place of the file.\n"
+        );
+    }
     let _ = write!(
         out,
         "\n```xml\n{}\n```\n",

@@ -52,6 +52,8 @@ pub(crate) struct Plugin {
     /// Further elements, for parameters that are asked for in some circumstances only. They need not load.
     #[serde(default)]
     pub(crate) probes: Vec<String>,
+    /// What its file holds, if Python may give an array in its place.
+    pub(crate) file: Option<Array>,
     /// Tags of what may be nested in it under any name.
     #[serde(default)]
     pub(crate) inputs: Vec<String>,
@@ -61,6 +63,24 @@ pub(crate) struct Plugin {
     /// What holds without a parameter, where that depends on others.
     #[serde(default)]
     pub(crate) defaults: BTreeMap<String, String>,
+}
+
+/// What arrays may stand for.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Array {
+    Picture,
+    Volume,
+}
+
+impl Array {
+    /// What it is, for readers.
+    pub(crate) fn described(self) -> &'static str {
+        match self {
+            Self::Picture => "height × width, or with 1, 3 or 4 channels",
+            Self::Volume => "along z, y and x, or with 1, 3 or 6 channels",
+        }
+    }
 }
 
 fn yes() -> bool {

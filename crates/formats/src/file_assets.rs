@@ -98,8 +98,17 @@ impl FileAssets {
     }
 
     /// Has these contents for these names, whatever is in files.
-    pub fn holding(mut self, contents: HashMap<String, Arc<Vec<u8>>>) -> Self {
+    pub fn holding(mut self, contents: impl IntoIterator<Item = (String, Arc<Vec<u8>>)>) -> Self {
         self.embedded.extend(contents);
+        self
+    }
+
+    /// Has these meshes for these names, whatever their format.
+    pub fn holding_meshes(
+        mut self,
+        meshes: impl IntoIterator<Item = (String, Arc<MeshData>)>,
+    ) -> Self {
+        self.meshes.extend(meshes);
         self
     }
 

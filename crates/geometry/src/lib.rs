@@ -34,3 +34,4 @@ pub use instance::GroupId;
 pub use placement::Placement;
 pub use shapes::Shape;
 pub use shapes::curves::control_points;
+pub use shapes::mesh::file_mesh::mesh_format;

@@ -3,6 +3,7 @@
 //! A `Scene` is read from a file, a text or a `dict`, rendered by `render` to an `Image`, and images are judged by `compare`.
 //! The types that Python's tools see are in `etalon.pyi`.
 
+mod array_values;
 mod comparison;
 mod conform;
 mod denoise;

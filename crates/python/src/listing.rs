@@ -1,13 +1,29 @@
 //! The values of a scene's plugins by their paths of keys: what they are, and trees with others in their place.
 
 use etalon_params::{Node, Property, SpectrumText, Value};
+use etalon_transport::MeshData;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::sync::Arc;
 
-/// A change of a scene: a path of keys, and the value that is there.
-pub(crate) type Change = (String, Value);
+/// A change of a scene.
+#[derive(Clone)]
+pub(crate) struct Change {
+    /// The path of keys of a value.
+    pub(crate) path: String,
+    /// What is there.
+    pub(crate) value: Value,
+    /// What is in the file of this name, which is none.
+    pub(crate) contents: Option<Contents>,
+}
+
+/// What stands for a file.
+#[derive(Clone)]
+pub(crate) enum Contents {
+    Bytes(Arc<Vec<u8>>),
+    Mesh(Arc<MeshData>),
+}
 
 /// The objects of a scene, each under its shortest path.
 pub(crate) struct Listing<'a> {
@@ -53,6 +69,13 @@ impl<'a> Listing<'a> {
         self.by_path.get(path).copied()
     }
 
+    /// All objects with their paths.
+    pub(crate) fn objects(&self) -> impl Iterator<Item = (&str, &'a Arc<Node>)> {
+        self.objects
+            .iter()
+            .map(|(path, node)| (path.as_str(), *node))
+    }
+
     /// The paths of all objects but the scene.
     pub(crate) fn paths(&self) -> impl Iterator<Item = &str> {
         let paths = self.objects.iter().map(|(path, _)| path.as_str());
@@ -71,10 +94,23 @@ impl<'a> Listing<'a> {
 /// Whether a property is a value that can be another: not an object, and not the name of a file, which has been read.
 fn is_settable(property: &Property) -> bool {
     let is_value = !matches!(property.value, Value::Object(_) | Value::Animation { .. });
-    is_value && !property.name.is_empty() && property.name != "filename"
+    is_value && !property.name.is_empty() && property.name != FILE
 }
 
-fn join(path: &str, key: &str) -> String {
+/// The parameter that names a file.
+pub(crate) const FILE: &str = "filename";
+
+/// The name of an object's file.
+pub(crate) fn file_name(node: &Node) -> Option<&str> {
+    let mut properties = node.properties.iter();
+    match &properties.find(|property| property.name == FILE)?.value {
+        Value::String(name) => Some(name),
+        _ => None,
+    }
+}
+
+/// A path of keys with another.
+pub(crate) fn join(path: &str, key: &str) -> String {
     match path {
         "" => key.to_owned(),
         path => format!("{path}.{key}"),
@@ -91,7 +127,7 @@ pub(crate) fn changed(root: &Arc<Node>, changes: &[Change]) -> Result<Arc<Node>,
     let listing = Listing::of(root);
     let mut of_nodes: HashMap<*const Node, Vec<(&str, &Value)>> = HashMap::new();
     let mut lost = Vec::new();
-    for (path, value) in changes {
+    for Change { path, value, .. } in changes {
         let found = split(path).and_then(|(object, key)| Some((listing.object(object)?, key)));
         match found {
             Some((node, key)) => {

@@ -1,11 +1,12 @@
 //! Where a scene comes from, to be compiled again with other options or values.
 
 use crate::dict::{Keys, SceneDict};
-use crate::listing::{Change, changed};
-use etalon_formats::{ReadOutcome, mitsuba};
-use etalon_params::Diagnostic;
+use crate::listing::{Change, Contents, Listing, changed, file_name, split};
+use etalon_formats::{FileAssets, ReadOutcome, mitsuba};
+use etalon_params::{Diagnostic, Value};
 use etalon_render::pipeline::{self, LoadError, LoadOptions, Loaded};
 use etalon_render::scene_hash;
+use etalon_transport::Assets;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -46,12 +47,12 @@ impl Origin {
 
     /// The same with further changes.
     pub(crate) fn with(&self, changes: Vec<Change>) -> Self {
-        let paths: HashSet<&str> = changes.iter().map(|(path, _)| path.as_str()).collect();
+        let paths: HashSet<&str> = changes.iter().map(|change| change.path.as_str()).collect();
         let old = self.changes.iter();
-        let old = old.filter(|(path, _)| !paths.contains(path.as_str()));
+        let old = old.filter(|change| !paths.contains(change.path.as_str()));
         let mut changes: Vec<Change> = old.chain(&changes).cloned().collect();
         // The same changes are the same scene, however they came about.
-        changes.sort_by(|a, b| a.0.cmp(&b.0));
+        changes.sort_by(|a, b| a.path.cmp(&b.path));
         Self {
             changes,
             ..self.clone()
@@ -65,19 +66,19 @@ impl Origin {
         before: &LoadOptions,
     ) -> Result<Loaded, LoadError> {
         let start = Instant::now();
-        let is_same = options.reading() == before.reading();
-        let kept = self.kept.get().filter(|_| is_same);
-        let read = kept.map_or_else(|| self.read(options), |kept| kept.read.clone());
-        let mut assets = pipeline::assets(&read);
-        if let Some(kept) = kept {
-            assets = assets.holding(kept.files.clone());
-        }
+        let kept = self.kept(options, before);
+        let (read, assets) = self.open(options, kept);
         let changed = self.changed(read.clone())?;
         let mut loaded = pipeline::compile(changed, &assets, self.path(), options, start)?;
         if self.changes.is_empty() {
             return Ok(loaded);
         }
-        let changes = format!("{:?}", self.changes);
+        // The names of arrays are their hashes.
+        let changes = self.changes.iter();
+        let changes: Vec<_> = changes
+            .map(|change| (&change.path, &change.value))
+            .collect();
+        let changes = format!("{changes:?}");
         loaded.hash = match kept {
             Some(kept) if options.framing == before.framing => {
                 scene_hash::changed(&kept.hash, &changes)
@@ -86,7 +87,10 @@ impl Origin {
                 scene_hash::changed(&kept.hash, &format!("{changes} {}", options.framing))
             }
             None => {
-                if is_same && let Ok(files) = assets.contents() {
+                if options.reading() == before.reading()
+                    && let Ok(mut files) = assets.contents()
+                {
+                    self.arrays().for_each(|(name, _)| drop(files.remove(name)));
                     let hash = loaded.hash.clone();
                     let _ = self.kept.set(Kept { read, files, hash });
                 }
@@ -94,6 +98,58 @@ impl Origin {
             }
         };
         Ok(loaded)
+    }
+
+    /// The files of the scene as it is.
+    pub(crate) fn files(&self, options: &LoadOptions) -> FileAssets {
+        self.open(options, self.kept(options, options)).1
+    }
+
+    /// What was kept, if it would be read the same with these options.
+    fn kept(&self, options: &LoadOptions, before: &LoadOptions) -> Option<&Kept> {
+        let is_same = options.reading() == before.reading();
+        self.kept.get().filter(|_| is_same)
+    }
+
+    /// The scene without changes, and its files with the arrays that are in place of some.
+    fn open(&self, options: &LoadOptions, kept: Option<&Kept>) -> (ReadOutcome, FileAssets) {
+        let read = kept.map_or_else(|| self.read(options), |kept| kept.read.clone());
+        let mut assets = pipeline::assets(&read);
+        match (kept, &read.document) {
+            (Some(kept), _) => assets = assets.holding(kept.files.clone()),
+            (None, Some(document)) if self.arrays().next().is_some() => {
+                // Those files are the scene's all the same, and may be asked for when they are gone.
+                let listing = Listing::of(&document.root);
+                for change in self
+                    .changes
+                    .iter()
+                    .filter(|change| change.contents.is_some())
+                {
+                    let object = split(&change.path).and_then(|(path, _)| listing.object(path));
+                    let _ =
+                        (object.and_then(|node| file_name(node))).map(|name| assets.bytes(name));
+                }
+            }
+            _ => {}
+        }
+        for (name, contents) in self.arrays() {
+            let name = name.to_owned();
+            assets = match contents {
+                Contents::Bytes(bytes) => assets.holding([(name, Arc::clone(bytes))]),
+                Contents::Mesh(mesh) => assets.holding_meshes([(name, Arc::clone(mesh))]),
+            };
+        }
+        (read, assets)
+    }
+
+    /// What is in place of files, by their names.
+    fn arrays(&self) -> impl Iterator<Item = (&str, &Contents)> {
+        self.changes
+            .iter()
+            .filter_map(|change| match &change.value {
+                Value::String(name) => Some((name.as_str(), change.contents.as_ref()?)),
+                _ => None,
+            })
     }
 
     fn read(&self, options: &LoadOptions) -> ReadOutcome {

@@ -1,8 +1,9 @@
 //! Scenes: read, checked and compiled.
 
+use crate::array_values;
 use crate::dict::{Keys, SceneDict, changes};
 use crate::errors::scene_error;
-use crate::listing::{Listing, to_python};
+use crate::listing::{Listing, join, to_python};
 use crate::origin::{Origin, Text};
 use etalon_render::pipeline::{LoadError, LoadOptions, Loaded};
 use pyo3::prelude::*;
@@ -102,20 +103,36 @@ impl Scene {
     ///
     /// A key is a name, or else an `id`, or else a type ('sphere', 'sphere_2', …). Numbers, texts, and arrays: 3 for points,
     /// vectors and colours, n × 2 for spectra (nm, value), 4 × 4 for transforms.
-    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    ///
+    /// arrays: whether what is in files is there, too, as copies: `data` of pictures and volumes, and of meshes `vertices`, `faces`,
+    /// `normals`, `uv` and attributes, all as in `load_dict`.
+    #[pyo3(signature = (*, arrays=false))]
+    fn parameters<'py>(&self, py: Python<'py>, arrays: bool) -> PyResult<Bound<'py, PyDict>> {
         let listing = Listing::of(&self.loaded.described.root);
-        let values = listing.values();
-        let values = values.map(|(path, value)| Ok((path, to_python(py, value)?)));
-        values.collect::<PyResult<Vec<_>>>()?.into_py_dict(py)
+        let dict = PyDict::new(py);
+        for (path, value) in listing.values() {
+            dict.set_item(path, to_python(py, value)?)?;
+        }
+        if arrays {
+            let files = py.detach(|| self.origin.files(&self.options));
+            for (path, node) in listing.objects() {
+                for (key, array) in array_values::of(py, node, &files)? {
+                    dict.set_item(join(path, &key), array)?;
+                }
+            }
+        }
+        Ok(dict)
     }
 
     /// The scene with other values: a dict from paths as `parameters()` has them, or of parameters that are not given yet.
     ///
     /// This scene stays as it is. What is read for the first change, files included, stays in memory for further ones. A value
-    /// is as in `load_dict`; three numbers in place of a colour, number or texture are a colour.
+    /// is as in `load_dict`; three numbers in place of a colour, number or texture are a colour; arrays, such as 'wall.vertices'
+    /// or 'wall.bsdf.reflectance.data', are in place of those in files. Vertices that move get new normals, unless these are given.
     fn with_parameters(&self, py: Python<'_>, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
         let listing = Listing::of(&self.loaded.described.root);
-        let changes = changes::read(parameters, &listing)?;
+        let files = || self.origin.files(&self.options);
+        let changes = changes::read(parameters, &listing, &files)?;
         Self::compile(py, self.origin.with(changes), self.options.clone())
     }
 

@@ -56,6 +56,11 @@ pub fn changed(hash: &str, changes: &str) -> String {
     hasher.finalize().to_hex()[..16].to_owned()
 }
 
+/// A hash of some contents.
+pub fn of_contents(contents: &[u8]) -> String {
+    blake3::hash(contents).to_hex()[..16].to_owned()
+}
+
 fn add(hasher: &mut Hasher, bytes: &[u8]) {
     hasher.update(&(bytes.len() as u64).to_le_bytes());
     hasher.update(bytes);

@@ -1,5 +1,6 @@
 //! Arrays as files in memory: pictures and volumes.
 
+use super::file_arrays::FileArray;
 use super::object::named;
 use super::values::{Refusal, sizes};
 use etalon_images::exr::{self, Part};
@@ -10,34 +11,16 @@ use numpy::{
 use pyo3::prelude::*;
 use std::io::Cursor;
 
-/// What an array is the contents of.
-#[derive(Clone, Copy)]
-pub(super) enum Kind {
-    /// Height × width, or with 1, 3 or 4 channels.
-    Picture,
-    /// Along z, y and x, or with 1, 3 or 6 channels.
-    Volume,
-}
-
-impl Kind {
-    /// That of a plugin's key, if it may have an array.
-    pub(super) fn of(plugin: &str, key: &str) -> Option<Self> {
-        match (plugin, key) {
-            ("gridvolume" | "sdfgrid", "data" | "grid") => Some(Self::Volume),
-            ("bitmap" | "envmap" | "goniometric" | "heightfield", "data" | "bitmap") => {
-                Some(Self::Picture)
-            }
-            _ => None,
-        }
-    }
-}
-
-/// The file of an array.
-pub(super) fn file(kind: Kind, value: &Bound<'_, PyAny>) -> PyResult<Result<Vec<u8>, Refusal>> {
+/// The file of an array, which may stand for this `old` one: a volume stays in its box.
+pub(super) fn file(
+    kind: FileArray,
+    value: &Bound<'_, PyAny>,
+    old: Option<&[u8]>,
+) -> PyResult<Result<Vec<u8>, Refusal>> {
     let array = as_array(value)?;
     let made = match kind {
-        Kind::Picture => picture(&array),
-        Kind::Volume => volume(&array),
+        FileArray::Picture => picture(&array),
+        FileArray::Volume => volume(&array, old),
     };
     Ok(made.map_err(|reason| match array.shape() {
         [] => format!("{} is no array; {reason}", named(value)),
@@ -108,7 +91,7 @@ fn picture(array: &Bound<'_, PyUntypedArray>) -> Result<Vec<u8>, Refusal> {
     }
 }
 
-fn volume(array: &Bound<'_, PyUntypedArray>) -> Result<Vec<u8>, Refusal> {
+fn volume(array: &Bound<'_, PyUntypedArray>, old: Option<&[u8]>) -> Result<Vec<u8>, Refusal> {
     let (size, channels) = match *array.shape() {
         [z, y, x] => ([x, y, z], 1),
         [z, y, x, channels @ (1 | 3 | 6)] => ([x, y, z], channels),
@@ -122,10 +105,15 @@ fn volume(array: &Bound<'_, PyUntypedArray>) -> Result<Vec<u8>, Refusal> {
     if size.contains(&0) {
         return Err("a volume without points has no values".to_owned());
     }
+    let bounds = match old.map(Volume::decode) {
+        None => [[0.0; 3], [1.0; 3]],
+        Some(Ok(old)) => old.bounds,
+        Some(Err(_)) => return Err("only the values of `.vol` files can be replaced".to_owned()),
+    };
     let volume = Volume {
         size,
         channels,
-        bounds: [[0.0; 3], [1.0; 3]],
+        bounds,
         samples: floats(array)?,
         behind: 0,
     };

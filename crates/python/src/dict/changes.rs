@@ -1,21 +1,27 @@
 //! Values that replace those of a scene, given as in a dict.
 
+use super::changed_files::ChangedFiles;
 use super::elements::Elements;
 use super::mistakes::Mistakes;
 use super::object::{self, Entry, Ids, Object};
 use super::{SceneDict, values};
 use crate::errors::scene_error;
-use crate::listing::{Change, Listing, split};
-use etalon_formats::{ReadOptions, mitsuba};
+use crate::listing::{Change, FILE, Listing, split};
+use etalon_formats::{FileAssets, ReadOptions, mitsuba};
 use etalon_params::{Class, Diagnostic, Value};
 use etalon_render::pipeline::LoadError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::BTreeMap;
 
-/// The changes in a dict from paths of keys to values, for a scene with these objects.
-pub(crate) fn read(dict: &Bound<'_, PyDict>, scene: &Listing<'_>) -> PyResult<Vec<Change>> {
+/// The changes in a dict from paths of keys to values, for a scene with these objects and files.
+pub(crate) fn read(
+    dict: &Bound<'_, PyDict>,
+    scene: &Listing<'_>,
+    files: &dyn Fn() -> FileAssets,
+) -> PyResult<Vec<Change>> {
     let mut mistakes = Mistakes::default();
+    let mut arrays = ChangedFiles::new(files);
     // A plugin that takes anything, in a scene: one for each object that has changes.
     let stand_in = |path: &str, kind: &str, entries| Object {
         path: path.to_owned(),
@@ -38,7 +44,10 @@ pub(crate) fn read(dict: &Bound<'_, PyDict>, scene: &Listing<'_>) -> PyResult<Ve
         };
         let mut properties = node.properties.iter();
         let old = properties.find(|p| p.name == key).map(|p| &p.value);
-        if key == "filename" {
+        if arrays.take((object, node), key, &value, &mut mistakes)? {
+            continue;
+        }
+        if key == FILE {
             mistakes.add_with_help(&path, "the file has been read", "load the scene again");
             continue;
         }
@@ -69,6 +78,7 @@ pub(crate) fn read(dict: &Bound<'_, PyDict>, scene: &Listing<'_>) -> PyResult<Ve
         let entries = objects.entry(object.to_owned()).or_default();
         entries.push((key.to_owned(), entry));
     }
+    let mut changes = arrays.finish(&mut mistakes);
     mistakes.raise()?;
     let objects = objects.into_iter().map(|(path, entries)| {
         let object = stand_in(&path, "diffuse", entries);
@@ -77,7 +87,8 @@ pub(crate) fn read(dict: &Bound<'_, PyDict>, scene: &Listing<'_>) -> PyResult<Ve
     let root = stand_in("", "scene", objects.collect());
     let mut elements = Elements::new(Ids::of(&root), false);
     elements.scene(&root)?;
-    values_of(&elements.finish()?, &root)
+    changes.extend(values_of(&elements.finish()?, &root)?);
+    Ok(changes)
 }
 
 /// What a value is written as that is a colour, in place of an old one.
@@ -109,7 +120,11 @@ fn values_of(text: &SceneDict, root: &Object<'_>) -> PyResult<Vec<Change>> {
             continue;
         };
         let values = node.properties.iter();
-        changes.extend(values.map(|value| (object.path_of(&value.name), value.value.clone())));
+        changes.extend(values.map(|value| Change {
+            path: object.path_of(&value.name),
+            value: value.value.clone(),
+            contents: None,
+        }));
     }
     Ok(changes)
 }

@@ -1,5 +1,6 @@
 //! The class of a plugin by its name alone: a dict says `sphere`, where XML says `<shape type="sphere">`.
 
+use super::file_arrays::FileArray;
 use etalon_params::{Class, Diagnostic, plugins, suggest};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -11,34 +12,51 @@ const WORDS: &str = include_str!("../../plugins.toml");
 /// What is taken of the list.
 #[derive(Deserialize)]
 struct Words {
-    plugin: Vec<Plugin>,
+    plugin: Vec<Listed>,
 }
 
 #[derive(Deserialize)]
-struct Plugin {
+struct Listed {
     class: String,
     names: Vec<String>,
+    file: Option<FileArray>,
 }
 
-/// Name and class of every plugin that is built; of a name that two classes have, the class that is meant without further signs.
-fn built() -> &'static BTreeMap<String, Class> {
-    static BUILT: OnceLock<BTreeMap<String, Class>> = OnceLock::new();
+/// What is known of a plugin by its name.
+#[derive(Clone, Copy)]
+pub(super) struct Plugin {
+    class: Class,
+    /// What its file holds, if an array may stand in its place.
+    pub(super) file: Option<FileArray>,
+}
+
+/// Every plugin that is built; of a name that two classes have, the one that is meant without further signs.
+fn built() -> &'static BTreeMap<String, Plugin> {
+    static BUILT: OnceLock<BTreeMap<String, Plugin>> = OnceLock::new();
     BUILT.get_or_init(|| {
         let words: Words = toml::from_str(WORDS).expect("a test reads it");
-        let mut built = BTreeMap::new();
-        for plugin in words.plugin {
+        let mut built: BTreeMap<String, Plugin> = BTreeMap::new();
+        for Listed { class, names, file } in words.plugin {
             let mut classes = plugins::CLASSES.into_iter();
-            let Some(class) = classes.find(|class| class.name() == plugin.class) else {
+            let Some(class) = classes.find(|known| known.name() == class) else {
                 continue;
             };
-            for name in plugin.names {
+            for name in names {
                 // A texture of space is a volume, too; and most hair is the material.
-                let first = built.entry(name).or_insert(class);
-                *first = (*first).min(class);
+                let plugin = Plugin { class, file };
+                let first = built.entry(name).or_insert(plugin);
+                if class < first.class {
+                    *first = plugin;
+                }
             }
         }
         built
     })
+}
+
+/// The plugin `name`, if it is built.
+pub(super) fn plugin(name: &str) -> Option<Plugin> {
+    built().get(name).copied()
 }
 
 /// The class of the plugin `name`, which has a `filename` or not.
@@ -51,7 +69,7 @@ pub(super) fn class(name: &str, has_filename: bool) -> Option<Class> {
         use plugins::Status::{Mitsuba3, Mitsuba06};
         matches!(plugins::status(*class, name), Mitsuba3 | Mitsuba06)
     };
-    let built = built().get(name).copied();
+    let built = plugin(name).map(|plugin| plugin.class);
     built.or_else(|| plugins::CLASSES.into_iter().find(is_known))
 }
 

@@ -1,11 +1,12 @@
 //! A tree of objects as elements of XML, one in a line.
 
-use super::arrays::{self, Kind};
+use super::arrays;
+use super::file_arrays::FileArray;
 use super::mistakes::Mistakes;
 use super::object::{self, Entry, Ids, Object};
 use super::{Keys, NAME, SceneDict, classes, mesh, values};
-use etalon_formats::embedded_name;
 use etalon_formats::mitsuba::{self, SceneInMemory};
+use etalon_formats::{embedded_name, ply};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::fmt::Display;
@@ -198,8 +199,8 @@ impl<'a, 'py> Elements<'a, 'py> {
         }
         self.line(path, depth, &start.replace("/>", ">"));
         if is_mesh {
-            match mesh::file(object)? {
-                Ok(file) => self.file(file, path, depth + 1),
+            match mesh::of_object(object)? {
+                Ok(mesh) => self.file(ply::write(&mesh), path, depth + 1),
                 Err((key, reason)) => self.mistakes.add(&object.path_of(&key), reason),
             }
         }
@@ -207,8 +208,8 @@ impl<'a, 'py> Elements<'a, 'py> {
             let path = object.path_of(key);
             match entry {
                 Entry::Value(_) if is_mesh && mesh::is_part(key) => {}
-                Entry::Value(value) => match Kind::of(kind, key) {
-                    Some(kind) => match arrays::file(kind, value)? {
+                Entry::Value(value) => match FileArray::of_key(kind, key) {
+                    Some(kind) => match arrays::file(kind, value, None)? {
                         Ok(file) => self.file(file, &path, depth + 1),
                         Err(reason) => self.mistakes.add(&path, reason),
                     },

@@ -3,7 +3,6 @@
 use super::arrays::{as_array, floats};
 use super::object::{Entry, Object};
 use super::values::{Refusal, sizes};
-use etalon_formats::ply;
 use etalon_transport::{Attribute, MeshData};
 use glam::{Vec2, Vec3};
 use numpy::{
@@ -24,82 +23,116 @@ pub(super) fn is_part(key: &str) -> bool {
     key == FACES || named.contains(&key) || is_attribute
 }
 
+/// The arrays of a mesh, with their names and how many numbers are in a row; that of the faces is apart.
+pub(crate) fn parts(mesh: &MeshData) -> Vec<(&str, usize, Vec<f32>)> {
+    let positions = mesh.positions.iter().flat_map(|p| p.to_array());
+    let mut parts = vec![(POSITIONS[0], 3, positions.collect())];
+    if !mesh.normals.is_empty() {
+        let normals = mesh.normals.iter().flat_map(|n| n.to_array());
+        parts.push((NORMALS[0], 3, normals.collect()));
+    }
+    if !mesh.uvs.is_empty() {
+        let uvs = mesh.uvs.iter().flat_map(|uv| uv.to_array());
+        parts.push((UVS[0], 2, uvs.collect()));
+    }
+    let attributes = mesh.attributes.iter();
+    parts.extend(attributes.map(|a| (a.name.as_str(), a.channels, a.values.clone())));
+    parts
+}
+
 /// A mistake with its key.
 type Mistake = (String, Refusal);
 
-/// The file of a mesh.
-pub(super) fn file(object: &Object<'_>) -> PyResult<Result<Vec<u8>, Mistake>> {
+/// An array with its key.
+pub(super) type Part<'py> = (String, Bound<'py, PyUntypedArray>);
+
+/// The mesh of an object's arrays.
+pub(super) fn of_object(object: &Object<'_>) -> PyResult<Result<MeshData, Mistake>> {
     let mut arrays = Vec::new();
     for (key, entry) in &object.entries {
         if let Entry::Value(value) = entry
             && is_part(key)
         {
-            arrays.push((key.as_str(), as_array(value)?));
+            arrays.push((key.clone(), as_array(value)?));
         }
     }
-    Ok(mesh(&arrays).map(|mesh| ply::write(&mesh)))
+    Ok(mesh(&arrays, None))
 }
 
-type Array<'a, 'py> = (&'a str, Bound<'py, PyUntypedArray>);
-
-fn mesh(arrays: &[Array<'_, '_>]) -> Result<MeshData, Mistake> {
+/// A mesh of arrays, or of some in place of those of an `old` one.
+///
+/// Vertices that move lose their normals, which are computed again, unless there are new ones.
+pub(super) fn mesh(arrays: &[Part<'_>], old: Option<&MeshData>) -> Result<MeshData, Mistake> {
     let given = |names: [&str; 2]| {
-        let mut found = arrays.iter().filter(move |(key, _)| names.contains(key));
+        let mut found = arrays
+            .iter()
+            .filter(move |(key, _)| names.contains(&key.as_str()));
         match (found.next(), found.next()) {
             (_, Some((second, _))) => {
                 let message = format!("it is given twice, as `{}`, too", names[0]);
-                Err(((*second).to_owned(), message))
+                Err((second.clone(), message))
             }
             (first, None) => Ok(first),
         }
     };
-    let needed = |names: [&str; 2], what: &str| {
-        let missing = || (names[0].to_owned(), format!("a mesh needs {what}"));
-        given(names)?.ok_or_else(missing)
-    };
-    let positions = rows::<3>(needed(POSITIONS, "an array of N × 3 positions (m)")?, None)?;
-    let vertices = Some((positions.len(), "vertices"));
-    let faces = faces(
-        needed([FACES; 2], "an array of M × 3 indices of vertices")?,
-        positions.len(),
-    )?;
-    let optional = |names| given(names).map(Option::into_iter);
-    let normals = optional(NORMALS)?.map(|array| rows::<3>(array, vertices));
-    let uvs = optional(UVS)?.map(|array| rows::<2>(array, vertices));
-    let mut mesh = MeshData {
-        normals: normals
-            .collect::<Result<Vec<_>, _>>()?
-            .concat()
-            .into_iter()
-            .map(Vec3::from_array)
-            .collect(),
-        uvs: uvs
-            .collect::<Result<Vec<_>, _>>()?
-            .concat()
-            .into_iter()
-            .map(Vec2::from_array)
-            .collect(),
-        positions: positions.into_iter().map(Vec3::from_array).collect(),
-        triangles: faces,
-        ..MeshData::default()
-    };
+    let (positions, triangles) = (given(POSITIONS)?, given([FACES; 2])?);
+    // With vertices and faces it is another mesh.
+    let old = old.filter(|_| positions.is_none() || triangles.is_none());
+    let mut mesh = old.cloned().unwrap_or_default();
+    let missing = |key: &str, what: &str| Err((key.to_owned(), format!("a mesh needs {what}")));
+    match positions {
+        Some(array) => {
+            let count = old.map(|old| (old.positions.len(), "vertices of the old faces"));
+            mesh.positions = vectors(array, count)?;
+            mesh.normals.clear();
+        }
+        None if old.is_none() => return missing(POSITIONS[0], "an array of N × 3 positions (m)"),
+        None => {}
+    }
+    match triangles {
+        Some(array) => {
+            mesh.triangles = faces(array, mesh.positions.len())?;
+            mesh.attributes
+                .retain(|attribute| !attribute.name.starts_with("face_"));
+        }
+        None if old.is_none() => return missing(FACES, "an array of M × 3 indices of vertices"),
+        None => {}
+    }
+    let vertices = (mesh.positions.len(), "vertices");
+    if let Some(array) = given(NORMALS)? {
+        mesh.normals = vectors(array, Some(vertices))?;
+    }
+    if let Some(array) = given(UVS)? {
+        let uvs = rows::<2>(array, Some(vertices))?;
+        mesh.uvs = uvs.into_iter().map(Vec2::from_array).collect();
+    }
     let known = [&POSITIONS[..], &NORMALS, &UVS, &[FACES]].concat();
-    for array in arrays.iter().filter(|(key, _)| !known.contains(key)) {
+    for array in arrays
+        .iter()
+        .filter(|(key, _)| !known.contains(&key.as_str()))
+    {
         let count = match array.0.starts_with("face_") {
             true => (mesh.triangles.len(), "faces"),
-            false => (mesh.positions.len(), "vertices"),
+            false => vertices,
         };
+        mesh.attributes
+            .retain(|attribute| attribute.name != array.0);
         mesh.attributes.push(attribute(array, count)?);
     }
     Ok(mesh)
 }
 
+fn vectors(array: &Part<'_>, count: Option<(usize, &str)>) -> Result<Vec<Vec3>, Mistake> {
+    let rows = rows::<3>(array, count)?;
+    Ok(rows.into_iter().map(Vec3::from_array).collect())
+}
+
 /// The rows of an array, or of its numbers one after the other, as many as there must be.
 fn rows<const N: usize>(
-    (key, array): &Array<'_, '_>,
+    (key, array): &Part<'_>,
     count: Option<(usize, &str)>,
 ) -> Result<Vec<[f32; N]>, Mistake> {
-    let mistake = |reason: String| ((*key).to_owned(), reason);
+    let mistake = |reason: String| (key.clone(), reason);
     let fits = match *array.shape() {
         [_, columns] => columns == N,
         [numbers] => numbers % N == 0,
@@ -127,8 +160,8 @@ fn rows<const N: usize>(
 }
 
 /// Triangles whose corners are there.
-fn faces((key, array): &Array<'_, '_>, vertices: usize) -> Result<Vec<[u32; 3]>, Mistake> {
-    let mistake = |reason: String| ((*key).to_owned(), reason);
+fn faces((key, array): &Part<'_>, vertices: usize) -> Result<Vec<[u32; 3]>, Mistake> {
+    let mistake = |reason: String| (key.clone(), reason);
     let fits = match *array.shape() {
         [_, columns] => columns == 3,
         [numbers] => numbers % 3 == 0,
@@ -156,10 +189,10 @@ fn faces((key, array): &Array<'_, '_>, vertices: usize) -> Result<Vec<[u32; 3]>,
     Ok(corners.as_chunks::<3>().0.to_vec())
 }
 
-fn attribute(array: &Array<'_, '_>, count: (usize, &str)) -> Result<Attribute, Mistake> {
+fn attribute(array: &Part<'_>, count: (usize, &str)) -> Result<Attribute, Mistake> {
     let (key, numbers) = array;
     let flat = |channels, values: Vec<f32>| Attribute {
-        name: (*key).to_owned(),
+        name: key.clone(),
         channels,
         values,
     };

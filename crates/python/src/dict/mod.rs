@@ -4,11 +4,13 @@
 //! other text: whatever XML can say, a dict can. [`Keys`] leads from the lines of messages back to the keys of the dict.
 
 mod arrays;
+mod changed_files;
 pub(crate) mod changes;
 mod classes;
 mod elements;
+pub(crate) mod file_arrays;
 mod keys;
-mod mesh;
+pub(crate) mod mesh;
 mod mistakes;
 mod object;
 mod values;

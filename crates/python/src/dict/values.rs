@@ -210,6 +210,9 @@ fn list(numbers: &[f64]) -> String {
 
 /// A shape as `4 × 3`.
 pub(super) fn sizes(shape: &[usize]) -> String {
+    if shape.is_empty() {
+        return "a single value".to_owned();
+    }
     let sizes: Vec<String> = shape.iter().map(usize::to_string).collect();
     sizes.join(" × ")
 }

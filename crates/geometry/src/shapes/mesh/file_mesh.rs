@@ -3,9 +3,29 @@
 use crate::placement::Placement;
 use crate::shapes::mesh::{Mesh, MeshOptions};
 use crate::shapes::shape_model::read_flip;
-use etalon_params::{Diagnostic, Params};
+use etalon_params::{Class, Diagnostic, Node, Params, Value};
 use etalon_transport::file::{report, span_of_filename};
 use etalon_transport::{Build, MeshData, MeshFormat};
+
+/// The format of a shape's file, if it is a mesh from a file.
+pub fn mesh_format(shape: &Node) -> Option<MeshFormat> {
+    match (shape.class, shape.plugin.value.as_str()) {
+        (Class::Shape, "obj") => Some(MeshFormat::Obj),
+        (Class::Shape, "ply") => Some(MeshFormat::Ply),
+        (Class::Shape, "serialized") => {
+            let mut given = shape.properties.iter();
+            let index = match given.find(|property| property.name == "shape_index") {
+                Some(property) => match property.value {
+                    Value::Integer(index) => u32::try_from(index).ok()?,
+                    _ => return None,
+                },
+                None => 0,
+            };
+            Some(MeshFormat::Serialized { shape_index: index })
+        }
+        _ => None,
+    }
+}
 
 /// Reads an `obj`; v is flipped unless the scene says otherwise, as in Mitsuba.
 pub(crate) fn obj(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
