@@ -4,8 +4,8 @@
 //! each word of each choice, with both truth values, and with every parameter of which only the presence was asked.
 
 use crate::load::load;
-use etalon_params::Class;
 use etalon_params::questions::{self, Question, Questions};
+use etalon_params::{Class, ParameterKind};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A plugin's parameters, as they were asked for.
@@ -21,7 +21,7 @@ pub(crate) struct Hearing<'a> {
 pub(crate) struct Heard {
     pub(crate) question: Question,
     /// Every kind that its value may be of.
-    pub(crate) kinds: BTreeSet<String>,
+    pub(crate) kinds: BTreeSet<ParameterKind>,
     /// The defaults that hold if it is not given.
     pub(crate) defaults: BTreeSet<String>,
     /// A default said where it was given, which may hold nowhere.
@@ -33,8 +33,10 @@ pub(crate) struct Heard {
 impl Heard {
     /// The same, and what was heard elsewhere.
     pub(crate) fn and(&mut self, other: &Self) {
+        if self.question.kind == ParameterKind::Unsaid {
+            self.question.kind = other.question.kind;
+        }
         for (known, new) in [
-            (&mut self.question.kind, &other.question.kind),
             (&mut self.question.accepted, &other.question.accepted),
             (&mut self.said, &other.said),
         ] {
@@ -42,7 +44,7 @@ impl Heard {
                 known.clone_from(new);
             }
         }
-        self.kinds.extend(other.kinds.iter().cloned());
+        self.kinds.extend(&other.kinds);
         self.question.required |= other.question.required;
         self.defaults.extend(other.defaults.iter().cloned());
         self.can_be_left_out |= other.can_be_left_out;
@@ -108,7 +110,7 @@ impl<'a> Hearing<'a> {
             }
             let default = question.default.clone();
             let mut heard = Heard {
-                kinds: BTreeSet::from([question.kind.clone()]),
+                kinds: BTreeSet::from([question.kind]),
                 question: Question {
                     default: String::new(),
                     ..question.clone()
@@ -150,14 +152,14 @@ impl<'a> Hearing<'a> {
     fn variants(&self, element: &str, name: &str, question: &Question) -> Vec<String> {
         let with = |tag: &str, value: &str| with(element, self.of.1, tag, name, value);
         let accepted = question.accepted.as_str();
-        let variants: Vec<Option<String>> = match question.kind.as_str() {
-            "a string" if accepted.starts_with('`') => (accepted.split('`').skip(1).step_by(2))
-                .map(|word| with("string", word))
-                .collect(),
-            kind if kind.starts_with("a boolean") => {
-                ["true", "false"].map(|value| with("boolean", value)).into()
+        let variants: Vec<Option<String>> = match question.kind {
+            ParameterKind::String if accepted.starts_with('`') => {
+                (accepted.split('`').skip(1).step_by(2))
+                    .map(|word| with("string", word))
+                    .collect()
             }
-            "" if !name.starts_with('<') => vec![with("float", "1")],
+            ParameterKind::Boolean => ["true", "false"].map(|value| with("boolean", value)).into(),
+            ParameterKind::Unsaid if !name.starts_with('<') => vec![with("float", "1")],
             _ => Vec::new(),
         };
         variants.into_iter().flatten().collect()

@@ -221,16 +221,13 @@ fn describe<'a>(
     for (name, heard, words) in described {
         let question = &heard.question;
         let nested = name.starts_with('<');
-        let kind = match question.kind.as_str() {
-            "" if question.accepted.is_empty() => "",
-            "" => question.accepted.as_str(),
-            kind => kind,
+        let kind = match question.kind.noun() {
+            "" => (question.accepted.trim_start_matches("an ")).trim_start_matches("a "),
+            noun => noun,
         };
-        let kind = kind.trim_start_matches("an ").trim_start_matches("a ");
-        let kind = kind.replace(" (`true` or `false`)", "");
         let accepted = match question.accepted.as_str() {
             "" => String::new(),
-            accepted if accepted.contains(&kind) || kind.is_empty() => String::new(),
+            accepted if accepted.contains(kind) || kind.is_empty() => String::new(),
             accepted => format!("; {accepted}"),
         };
         let default = (plugin.defaults.get(name).cloned()).or_else(|| heard.what_holds());
@@ -248,7 +245,7 @@ fn describe<'a>(
         } else {
             format!("`{name}`")
         };
-        let kind = if nested { String::new() } else { kind };
+        let kind = if nested { "" } else { kind };
         let _ = writeln!(out, "| {shown} | {kind} | {default} | {words}{accepted} |");
     }
     wrong.extend(

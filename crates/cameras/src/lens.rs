@@ -11,7 +11,7 @@
 //! Quantities that are not given follow from the others; those that are given redundantly must agree.
 
 use etalon_params::field_of_view::{half_width_from_params, half_width_of_fov};
-use etalon_params::{Params, Value};
+use etalon_params::{ParameterKind, Params, Value};
 
 /// The quantities of a lens that a camera needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,7 +114,7 @@ impl Lens {
     /// Reads `focal_length`, `focus_distance` (`far` if nothing says where it is focused, as Mitsuba has it), `image_distance`,
     /// `aperture_radius` or `f_number`, and `fov` or `film_width`.
     pub fn from_params(params: &Params<'_>, aspect: f64, far: f64) -> Option<Self> {
-        params.note_default("focus_distance", "a number", far);
+        params.note_default("focus_distance", ParameterKind::Number, far);
         let [f, z0, z1] = distances(params, far)?;
         Some(Self {
             aperture_radius: Self::radius(params, f)?,

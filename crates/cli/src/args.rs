@@ -34,6 +34,7 @@ use crate::frames::{Frame, FrameRange};
 use crate::outputs::Outputs;
 use clap::{Args, Parser, Subcommand};
 use etalon_render::part::PartOfMany;
+use etalon_render::resources::{MOST_REPLICATES, MOST_THREADS};
 use etalon_scene::{AcceleratorKind, LightSamplerKind};
 use std::path::{Path, PathBuf};
 
@@ -256,7 +257,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "S", value_parser = parse_seed, allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Threads [default: one per processor].
-    #[arg(long, value_name = "T", value_parser = whole::<1, 1024>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", value_parser = whole::<1, MOST_THREADS>, allow_negative_numbers = true)]
     pub threads: Option<u32>,
     /// Replace the type of the innermost integrator (keeps max_depth, rr_depth, hide_emitters; all
     /// of its parameters if it has that type).
@@ -282,7 +283,7 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub preview: PreviewArgs,
     /// Replicates the image is the mean of [default: 8, or fewer if spp is less].
-    #[arg(long, value_name = "R", value_parser = whole::<1, 4096>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", value_parser = whole::<1, MOST_REPLICATES>, allow_negative_numbers = true)]
     pub replicates: Option<u32>,
     /// Independent replicates instead of blocks of one sequence: noisier, with unbiased squared standard errors.
     #[arg(long)]

@@ -10,7 +10,7 @@
 
 use crate::aov::{Variable, evaluate};
 use crate::steps::camera_ray::camera_ray;
-use etalon_params::{Params, SpectrumText, Value};
+use etalon_params::{ParameterKind, Params, SpectrumText, Value};
 use etalon_sampling::{ReplicateKind, Sampler};
 use etalon_transport::{
     Channel, Incompatibility, Integrator, Pass, PixelSample, Placing, SceneCapabilities, Sink,
@@ -68,7 +68,7 @@ impl Field {
 
 /// What is shown where there is nothing.
 fn undefined(params: &Params<'_>) -> Option<Vec3> {
-    params.note_default("undefined", "a number or a colour", 0);
+    params.note_default("undefined", ParameterKind::Words("a number or a colour"), 0);
     let value = match params.property("undefined").map(|p| &p.value) {
         None => Vec3::ZERO,
         Some(Value::Rgb(colour)) => colour.as_vec3(),

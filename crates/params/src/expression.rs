@@ -1,6 +1,6 @@
 //! Expressions among the properties of a node.
 
-use crate::{Diagnostic, Params, Value};
+use crate::{Diagnostic, ParameterKind, Params, Value};
 use etalon_math::Expression;
 use etalon_math::expression::ExpressionError;
 
@@ -24,7 +24,11 @@ impl Params<'_> {
             return self.expression(name, variables);
         }
         let number = self.float(name).unwrap_or(default);
-        self.note_default(name, "a number or an expression", default);
+        self.note_default(
+            name,
+            ParameterKind::Words("a number or an expression"),
+            default,
+        );
         Expression::parse(&format!("({number})"), &[]).ok()
     }
 

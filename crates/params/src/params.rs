@@ -7,7 +7,7 @@
 
 use crate::questions::{self, Question};
 use crate::unused::Unused;
-use crate::{Class, Diagnostic, Diagnostics, Node, Property, Value, suggest};
+use crate::{Class, Diagnostic, Diagnostics, Node, ParameterKind, Property, Value, suggest};
 use etalon_math::Motion;
 use glam::{DMat4, DVec3};
 use std::cell::RefCell;
@@ -39,9 +39,9 @@ impl<'a> Params<'a> {
     }
 
     /// The same of a parameter with this kind and default.
-    pub fn note_default(&self, name: &str, kind: &str, default: impl Display) {
+    pub fn note_default(&self, name: &str, kind: ParameterKind, default: impl Display) {
         self.note(name, || Question {
-            kind: kind.to_owned(),
+            kind,
             default: default.to_string(),
             ..Question::default()
         });
@@ -90,7 +90,8 @@ impl<'a> Params<'a> {
             .push(Diagnostic::error(self.node.plugin.span, message));
     }
 
-    fn wrong_kind(&self, property: &Property, wanted: &str) {
+    fn wrong_kind(&self, property: &Property, wanted: ParameterKind) {
+        let wanted = wanted.with_article();
         self.diagnostics.push(
             Diagnostic::error(
                 property.span,
@@ -127,7 +128,7 @@ impl<'a> Params<'a> {
     fn get<T>(
         &self,
         name: &str,
-        wanted: &str,
+        wanted: ParameterKind,
         convert: impl Fn(&'a Value) -> Option<T>,
     ) -> Option<T> {
         self.note_default(name, wanted, "");
@@ -141,7 +142,7 @@ impl<'a> Params<'a> {
 
     /// A number, if given.
     pub fn float(&self, name: &str) -> Option<f64> {
-        self.get(name, "a number", |v| match v {
+        self.get(name, ParameterKind::Number, |v| match v {
             Value::Float(x) => Some(*x),
             Value::Integer(i) => Some(*i as f64),
             _ => None,
@@ -150,7 +151,7 @@ impl<'a> Params<'a> {
 
     /// A number, or its default.
     pub fn float_or(&self, name: &str, default: f64) -> f64 {
-        self.note_default(name, "a number", default);
+        self.note_default(name, ParameterKind::Number, default);
         self.float(name).unwrap_or(default)
     }
 
@@ -193,7 +194,7 @@ impl<'a> Params<'a> {
 
     /// An integer, if given.
     pub fn integer(&self, name: &str) -> Option<i64> {
-        self.get(name, "an integer", |v| match v {
+        self.get(name, ParameterKind::Integer, |v| match v {
             Value::Integer(i) => Some(*i),
             _ => None,
         })
@@ -201,14 +202,14 @@ impl<'a> Params<'a> {
 
     /// An integer, or its default.
     pub fn integer_or(&self, name: &str, default: i64) -> i64 {
-        self.note_default(name, "an integer", default);
+        self.note_default(name, ParameterKind::Integer, default);
         self.integer(name).unwrap_or(default)
     }
 
     /// A truth value, or its default.
     pub fn boolean_or(&self, name: &str, default: bool) -> bool {
-        self.note_default(name, "", default);
-        self.get(name, "a boolean (`true` or `false`)", |v| match v {
+        self.note_default(name, ParameterKind::Boolean, default);
+        self.get(name, ParameterKind::Boolean, |v| match v {
             Value::Boolean(b) => Some(*b),
             _ => None,
         })
@@ -217,7 +218,7 @@ impl<'a> Params<'a> {
 
     /// A string, if given.
     pub fn string(&self, name: &str) -> Option<&'a str> {
-        self.get(name, "a string", |v| match v {
+        self.get(name, ParameterKind::String, |v| match v {
             Value::String(s) => Some(s.as_str()),
             _ => None,
         })
@@ -252,7 +253,7 @@ impl<'a> Params<'a> {
 
     /// A point or vector, if given.
     pub fn vector(&self, name: &str) -> Option<DVec3> {
-        self.get(name, "a point or vector", |v| match v {
+        self.get(name, ParameterKind::Vector, |v| match v {
             Value::Vector(x) => Some(*x),
             _ => None,
         })
@@ -260,8 +261,8 @@ impl<'a> Params<'a> {
 
     /// A transform, or the identity. One that moves is held in the middle of the shutter's interval.
     pub fn transform(&self, name: &str) -> DMat4 {
-        self.note_default(name, "", "identity");
-        self.get(name, "a transform", |v| match v {
+        self.note_default(name, ParameterKind::Transform, "identity");
+        self.get(name, ParameterKind::Transform, |v| match v {
             Value::Transform(m) => Some(*m),
             Value::Animation { middle, .. } => Some(*middle),
             _ => None,
@@ -271,8 +272,8 @@ impl<'a> Params<'a> {
 
     /// The transforms of an animation's keys, or the only one; the identity if the property is not given.
     pub fn keyframes(&self, name: &str) -> Vec<DMat4> {
-        self.note_default(name, "", "identity");
-        self.get(name, "a transform or an animation", |v| match v {
+        self.note_default(name, ParameterKind::Motion, "identity");
+        self.get(name, ParameterKind::Motion, |v| match v {
             Value::Transform(m) => Some(vec![*m]),
             Value::Animation { motion, .. } => Some(motion.keys().to_vec()),
             _ => None,
@@ -283,7 +284,7 @@ impl<'a> Params<'a> {
     /// How the property moves things, the identity if it is not given. `None` if it is one transform that is
     /// projective, singular or not finite, which has been reported.
     pub fn motion(&self, name: &str) -> Option<Motion> {
-        self.note_default(name, "a transform or an animation", "identity");
+        self.note_default(name, ParameterKind::Motion, "identity");
         let property = self.property(name);
         if let Some(Value::Animation { motion, .. }) = property.map(|p| &p.value) {
             return Some((**motion).clone());
@@ -316,7 +317,7 @@ impl<'a> Params<'a> {
     /// The nested objects of one class, named or not, in the order of the file; marked as used.
     pub fn children(&self, class: Class) -> Vec<(&'a Property, &'a Arc<Node>)> {
         if questions::is_recording() {
-            self.note_default(&format!("<{}>", class.name()), "nested", "");
+            self.note_default(&format!("<{}>", class.name()), ParameterKind::Nested, "");
         }
         let children: Vec<_> = self
             .node

@@ -3,7 +3,7 @@
 //! A plugin's parameters are nowhere but in the code that reads them. While [`record`] runs something, every question of
 //! every [`crate::Params`] is noted with its kind and default; otherwise a question costs a look at a flag.
 
-use crate::Class;
+use crate::{Class, ParameterKind};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,8 +11,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// The documentation of a parameter, as recorded.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Question {
-    /// What its value must be, such as "a number".
-    pub kind: String,
+    /// What its value must be.
+    pub kind: ParameterKind,
     /// Its default; empty if that is not a single value.
     pub default: String,
     /// Which values of that kind are accepted; empty for all.
@@ -51,8 +51,10 @@ pub(crate) fn note(class: Class, plugin: &str, name: &str, question: impl FnOnce
     let known = noted
         .entry((class, plugin.to_owned(), name.to_owned()))
         .or_default();
+    if question.kind != ParameterKind::Unsaid {
+        known.kind = question.kind;
+    }
     for (known, new) in [
-        (&mut known.kind, question.kind),
         (&mut known.default, question.default),
         (&mut known.accepted, question.accepted),
     ] {

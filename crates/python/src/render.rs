@@ -9,6 +9,7 @@ use etalon_film::{FilmSize, Framing, RenderedImage};
 use etalon_integrators::{RenderPlan, ReplicateRange};
 use etalon_render::pilot::Failure;
 use etalon_render::pipeline::{self, LoadOptions, Loaded, RenderControls, RenderOptions, Rendered};
+use etalon_render::resources::MOST_REPLICATES;
 use etalon_render::target::{self, Noise, Pilot, Target};
 use glam::UVec2;
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -16,9 +17,6 @@ use pyo3::prelude::*;
 use std::num::NonZeroU32;
 use std::sync::Arc;
 use std::time::Instant;
-
-/// The most replicates, as for the binary.
-const MOST_REPLICATES: u32 = 4096;
 
 /// Renders a scene.
 ///

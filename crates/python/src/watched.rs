@@ -2,6 +2,7 @@
 
 use crate::errors::value_error;
 use crate::progress_report::{ProgressReport, Watch};
+use etalon_render::resources::MOST_THREADS;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::num::NonZeroU32;
@@ -13,18 +14,17 @@ use std::time::Duration;
 /// How often signals are looked for and progress is told.
 const TICK: Duration = Duration::from_millis(100);
 
-/// The most threads, as for the binary.
-const MOST_THREADS: usize = 1024;
-
 /// So many threads.
 fn pool(threads: NonZeroU32) -> PyResult<ThreadPool> {
-    let threads = threads.get() as usize;
+    let threads = threads.get();
     if threads > MOST_THREADS {
         return Err(value_error(format!(
             "threads is {threads}: there may be {MOST_THREADS} at most"
         )));
     }
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(threads as usize)
+        .build();
     pool.map_err(|error| value_error(format!("cannot start threads: {error}")))
 }
 

@@ -2,6 +2,7 @@
 
 import etalon as et
 import numpy as np
+import pytest
 
 T = et.Transform
 
@@ -52,6 +53,14 @@ def ball_xml(more):
 
 def pixels(loaded):
     return et.render(loaded, spp=4, seed=1).numpy()
+
+
+def assert_refused(act, key, words):
+    """An error at this path of keys says these words."""
+    with pytest.raises(et.SceneError) as caught:
+        act()
+    lines = str(caught.value).split("\n")
+    assert [line for line in lines if line.startswith(f"{key}: error: ") and words in line], lines
 
 
 def sensor_xml(kind, more=""):

@@ -13,7 +13,7 @@ use etalon_film::{
     recorded_seconds,
 };
 pub use etalon_formats::is_scene;
-use etalon_formats::{Document, FileAssets, ReadOutcome, mitsuba};
+use etalon_formats::{Document, FileAssets, ReadOutcome};
 use etalon_integrators::{AnyIntegrator, Progress, RenderPlan, RenderStatistics, ReplicateRange};
 use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Span, Value};
 use etalon_sampling::{ReplicateKind, SamplerKind};
@@ -31,17 +31,6 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     let read = etalon_formats::read(path, &options.reading());
     let assets = assets(&read);
     compile(read, &assets, path, options, start)
-}
-
-/// Reads and compiles a scene of Mitsuba's XML that is in no file: see [`mitsuba::read_text`].
-///
-/// # Errors
-/// As [`load`].
-pub fn load_text(text: &str, options: &LoadOptions) -> Result<Loaded, LoadError> {
-    let start = Instant::now();
-    let read = mitsuba::read_text(text, &options.reading());
-    let assets = assets(&read);
-    compile(read, &assets, Path::new(mitsuba::TEXT), options, start)
 }
 
 /// The files that a scene refers to.

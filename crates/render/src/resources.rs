@@ -2,6 +2,12 @@
 
 use std::fs::read_to_string;
 
+/// The most threads that one may ask for.
+pub const MOST_THREADS: u32 = 1024;
+
+/// The most replicates that one may ask for.
+pub const MOST_REPLICATES: u32 = 4096;
+
 /// The largest resident size of this process so far (bytes), where the system tells.
 pub fn peak_memory_bytes() -> Option<u64> {
     field(&read_to_string("/proc/self/status").ok()?, "VmHWM:")

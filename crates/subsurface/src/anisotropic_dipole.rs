@@ -10,12 +10,12 @@
 //! K. Bala, S. Marschner, A radiative transfer framework for rendering materials with anisotropic structure, 2010, section 6). For D = ⅓ I it is
 //! [`crate::dipole`].
 
-use crate::diffusion::Radial;
+use crate::diffusion::{Boundary, LaneProfile, Matter, ProfileModel, Radial};
 use crate::dipole::{Dipole, DipolePair, flux};
 use crate::sggx::symmetric_matrix;
 use core::f32::consts::PI;
 use etalon_math::float;
-use etalon_params::{Params, Value};
+use etalon_params::{ParameterKind, Params, Value};
 use etalon_transport::Exit;
 use glam::{Mat3, Vec3};
 
@@ -40,7 +40,7 @@ pub(crate) struct AnisotropicDipole {
     /// The source and its image: the place (m, in the frame of the entry) and the distance from the surface (m).
     sources: [(Vec3, f32); 2],
     /// By which distances are chosen: dipoles as wide as this is along either principal direction.
-    pub(crate) widths: DipolePair,
+    widths: DipolePair,
 }
 
 impl Grain {
@@ -50,7 +50,11 @@ impl Grain {
         let normal_extinction =
             params.float_where("normal_extinction", 1.0, what, |x| x > 0.0 && x.is_finite()) as f32;
         let accepted = "six numbers (xx, yy, zz, xy, xz, yz) of a matrix of trace 1 without negative eigenvalues, or all nine of it";
-        params.note_default("moments", accepted, "1/3, 1/3, 1/3, 0, 0, 0");
+        params.note_default(
+            "moments",
+            ParameterKind::Words(accepted),
+            "1/3, 1/3, 1/3, 0, 0, 0",
+        );
         let moments = match params.property("moments").map(|p| &p.value) {
             None => Mat3::IDENTITY / 3.0,
             Some(Value::String(text)) => {
@@ -109,9 +113,24 @@ impl AnisotropicDipole {
             widths: DipolePair::new(widths, widths.map(|dipole| 0.5 * dipole.total())),
         }
     }
+}
 
-    /// What leaves at a point (m⁻²). Where the surface bends, the point is laid down on its tangent plane at its distance.
-    pub(crate) fn value(&self, exit: &Exit) -> f32 {
+impl ProfileModel for Grain {
+    type Lane<'a> = AnisotropicDipole;
+    const OF_HALF_SPACE: bool = false;
+
+    fn at(&self, matter: &Matter, boundary: &Boundary) -> AnisotropicDipole {
+        AnisotropicDipole::new(self, matter.absorption, matter.scattering, boundary.inside)
+    }
+}
+
+impl LaneProfile for AnisotropicDipole {
+    fn radial(&self) -> &dyn Radial {
+        &self.widths
+    }
+
+    /// Where the surface bends, the point is laid down on its tangent plane at its distance.
+    fn exitance(&self, exit: &Exit) -> f32 {
         let flat = exit.offset.truncate();
         let at = flat.normalize_or(glam::Vec2::X) * exit.offset.length();
         let leaving = |(source, z): (Vec3, f32)| {
@@ -120,12 +139,15 @@ impl AnisotropicDipole {
         };
         self.scale * self.sources.map(leaving).iter().sum::<f32>()
     }
+
+    fn reach(&self, share: f32) -> f32 {
+        self.widths.sample(share)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diffusion::Matter;
     use etalon_math::float64;
 
     fn grain(moments: &str) -> Grain {
@@ -153,7 +175,7 @@ mod tests {
         let dipole = Dipole::new(&matter, 0.4);
         let ours = AnisotropicDipole::new(&grain(even), 0.2, 1.5, 0.4);
         for r in [0.01, 0.5, 3.0] {
-            let off = ours.value(&exit(0.8 * r, 0.6 * r)) / dipole.value(r) - 1.0;
+            let off = ours.exitance(&exit(0.8 * r, 0.6 * r)) / dipole.value(r) - 1.0;
             assert!(off.abs() < 1e-4, "{r}: {off}");
         }
         assert!((ours.widths.total() / dipole.total() - 1.0).abs() < 1e-4);
@@ -177,7 +199,7 @@ mod tests {
                 for j in 0..spokes {
                     let turn = core::f64::consts::TAU * (f64::from(j) + 0.5) / f64::from(spokes);
                     let (sin, cos) = float::sin_cos(turn as f32);
-                    let value = profile.value(&exit(r as f32 * cos, r as f32 * sin));
+                    let value = profile.exitance(&exit(r as f32 * cos, r as f32 * sin));
                     sum += f64::from(value) * r * r * step * core::f64::consts::TAU
                         / f64::from(spokes);
                 }
@@ -186,7 +208,7 @@ mod tests {
             assert!(off.abs() < 5e-3, "{moments}: {off}");
         }
         let along = |moments: &str, x, y| {
-            AnisotropicDipole::new(&grain(moments), 0.05, 1.0, 0.0).value(&exit(x, y))
+            AnisotropicDipole::new(&grain(moments), 0.05, 1.0, 0.0).exitance(&exit(x, y))
         };
         let u = "0.1, 0.5, 0.4, 0, 0, 0";
         assert!(along(u, 4.0, 0.0) > 2.0 * along(u, 0.0, 4.0));

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! where from each depth z it diffuses as from a source there and a negative one at 2z_b − z, the fluence φ and the irradiance E being
-//! theirs (J. M. Habel, P. H. Christensen, W. Jarosz, Photon beam diffusion, 2013, eqs. 5, 6, 10 and 13; with D = (2σa + σ's)/(3σ't²) of
+//! theirs (R. Habel, P. H. Christensen, W. Jarosz, Photon beam diffusion, 2013, eqs. 5, 6, 10 and 13; with D = (2σa + σ's)/(3σ't²) of
 //! C. C. Grosjean 1956 and the factors of E. d'Eon, G. Irving, A quantized-diffusion model for rendering translucent materials, 2011),
 //! and κ = 1 − e^(−2σ't (d + z)) dampens what is too near the surface for diffusion. R₁ is the light that is scattered once, integrated
 //! along the beam as it leaves through the boundary (ibid., eq. 15).
@@ -14,11 +14,12 @@
 //! for 64 albedos is computed when a scene is read.
 
 use crate::HenyeyGreenstein;
-use crate::diffusion::{Matter, Radial};
+use crate::diffusion::{Boundary, Matter, ProfileModel, Radial};
 use crate::rotational::Rotational;
 use core::f64::consts::{PI, TAU};
 use etalon_math::{float64, fresnel};
 use etalon_sampling::discrete::PiecewiseLinear;
+use std::sync::Arc;
 
 /// Albedos of the table.
 const ALBEDOS: usize = 64;
@@ -32,11 +33,20 @@ const DEPTHS: usize = 96;
 /// Concentration of the albedos toward 1, where profiles change most.
 const CROWDING: f64 = 8.0;
 
-/// Profiles by albedo, in mean free paths.
-#[derive(Clone, Debug)]
+/// Profiles by albedo, in mean free paths. Cloning shares them.
+#[derive(Clone, Debug, PartialEq)]
 pub struct BeamDiffusion {
     /// 2πr R, normalised, and its integral.
-    rows: Vec<(PiecewiseLinear, f64)>,
+    rows: Arc<[(PiecewiseLinear, f64)]>,
+}
+
+impl ProfileModel for BeamDiffusion {
+    type Lane<'a> = Beam<'a>;
+    const OF_HALF_SPACE: bool = true;
+
+    fn at(&self, matter: &Matter, _: &Boundary) -> Beam<'_> {
+        self.of(matter)
+    }
 }
 
 /// The profile of one matter.
@@ -63,6 +73,12 @@ fn moments(eta: f32) -> [f64; 2] {
 }
 
 impl BeamDiffusion {
+    /// For matter of this mean cosine below a boundary; `None` if that is no mean cosine.
+    pub(crate) fn below(g: f32, boundary: &Boundary) -> Option<Self> {
+        let phase = HenyeyGreenstein::new(g)?;
+        Some(Self::new(&phase, boundary.eta.unwrap_or(1.0)))
+    }
+
     /// For matter with this phase function below a boundary of the relative index `eta` (1 for one that lets all light pass).
     pub(crate) fn new(phase: &HenyeyGreenstein, eta: f32) -> Self {
         let g = phase.mean_cosine();

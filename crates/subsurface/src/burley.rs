@@ -9,9 +9,24 @@
 //! with the albedo A of the surface, and ℓ = 1/σ't (P. H. Christensen, B. Burley, Approximate reflectance profiles for efficient
 //! subsurface scattering, 2015, eqs. 3, 5 and 6). 2πr R is a mixture of two exponential densities, which are sampled exactly.
 
-use crate::diffusion::Radial;
+use crate::diffusion::{Boundary, Matter, ProfileModel, Radial};
+use crate::surface_albedo::inside_boundary;
 use core::f32::consts::PI;
 use etalon_math::float;
+
+/// The profile of any matter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalisedDiffusion;
+
+impl ProfileModel for NormalisedDiffusion {
+    type Lane<'a> = Burley;
+    const OF_HALF_SPACE: bool = true;
+
+    fn at(&self, matter: &Matter, boundary: &Boundary) -> Burley {
+        let albedo = inside_boundary(matter.surface_albedo(), boundary.inside);
+        Burley::new(albedo, 1.0 / matter.reduced(), boundary.eta.is_none())
+    }
+}
 
 /// A profile at one wavelength.
 #[derive(Clone, Copy, Debug)]

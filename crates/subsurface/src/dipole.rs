@@ -9,9 +9,22 @@
 //! S. R. Marschner, M. Levoy, P. Hanrahan, A practical model for subsurface light transport, 2001, eqs. 3 and 4). What
 //! leaves beyond a distance is known in closed form, ½α' Σ z e^(−σtr d)/d, and inverted by Newton's method.
 
-use crate::diffusion::{Matter, Radial};
+use crate::diffusion::{Boundary, Matter, ProfileModel, Radial};
 use core::f32::consts::PI;
 use etalon_math::float;
+
+/// The profile of any matter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiffusionDipole;
+
+impl ProfileModel for DiffusionDipole {
+    type Lane<'a> = Dipole;
+    const OF_HALF_SPACE: bool = true;
+
+    fn at(&self, matter: &Matter, boundary: &Boundary) -> Dipole {
+        Dipole::new(matter, boundary.inside)
+    }
+}
 
 /// A profile at one wavelength.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! The list of media, and how each is read.
 
-use crate::diffusion::ProfileAt;
 use crate::phases::PhaseAt;
+use crate::profiles::ProfileAt;
 use crate::tracking::{self, Tracked, Tracking};
 use crate::{Heterogeneous, HeterogeneousAt, Homogeneous, HomogeneousAt};
 use etalon_params::{Params, plugins};

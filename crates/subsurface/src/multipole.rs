@@ -18,10 +18,11 @@
 //! with the sign −(−1)ⁿ for T, and what leaves in all is known in closed form. A source deeper than the middle of the slab would
 //! be out of place: in thin sheets zᵣ is ½d.
 
-use crate::diffusion::{Matter, Radial};
+use crate::diffusion::{Boundary, LaneProfile, Matter, ProfileModel, Radial};
 use crate::dipole::{Dipole, DipolePair, flux};
 use core::f32::consts::PI;
 use etalon_math::{bessel_k0, float};
+use etalon_params::Params;
 use etalon_transport::Exit;
 
 /// Images of the source on either side.
@@ -39,6 +40,33 @@ const CLEAR: f32 = 2.0;
 /// No light worth mention leaves beyond this many L: e^(−4π).
 const REACH: f32 = 4.0;
 
+/// The profile of any matter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slab {
+    /// d (m).
+    thickness: f32,
+}
+
+impl Slab {
+    /// Reads `thickness`.
+    pub(crate) fn from_params(params: &Params<'_>) -> Self {
+        let what = "a finite number above 0";
+        let thickness = params.float_where("thickness", 1.0, what, |d| d > 0.0 && d.is_finite());
+        Self {
+            thickness: thickness as f32,
+        }
+    }
+}
+
+impl ProfileModel for Slab {
+    type Lane<'a> = Multipole;
+    const OF_HALF_SPACE: bool = false;
+
+    fn at(&self, matter: &Matter, boundary: &Boundary) -> Multipole {
+        Multipole::new(matter, boundary.inside, self.thickness)
+    }
+}
+
 /// A profile at one wavelength.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Multipole {
@@ -53,7 +81,7 @@ pub(crate) struct Multipole {
     /// d (m).
     thickness: f32,
     /// By which distances are chosen: the nearest sources of R and of T.
-    pub(crate) nearest: DipolePair,
+    nearest: DipolePair,
 }
 
 /// A side of the slab.
@@ -63,6 +91,26 @@ enum Side {
     Near,
     /// The other.
     Far,
+}
+
+impl LaneProfile for Multipole {
+    fn radial(&self) -> &dyn Radial {
+        &self.nearest
+    }
+
+    fn exitance(&self, exit: &Exit) -> f32 {
+        let turned = 0.5 - 0.5 * exit.normal.z.clamp(-1.0, 1.0);
+        let at = |side, share: f32, r: f32| match share > 0.0 {
+            true => share * self.at(side, r),
+            false => 0.0,
+        };
+        at(Side::Near, 1.0 - turned, exit.offset.length())
+            + at(Side::Far, turned, exit.offset.truncate().length())
+    }
+
+    fn reach(&self, share: f32) -> f32 {
+        self.nearest.sample(share).min(REACH * self.width())
+    }
 }
 
 impl Multipole {
@@ -93,22 +141,6 @@ impl Multipole {
 
     fn width(&self) -> f32 {
         self.thickness + 2.0 * self.beyond
-    }
-
-    /// What leaves at a point (m⁻²).
-    pub(crate) fn value(&self, exit: &Exit) -> f32 {
-        let turned = 0.5 - 0.5 * exit.normal.z.clamp(-1.0, 1.0);
-        let at = |side, share: f32, r: f32| match share > 0.0 {
-            true => share * self.at(side, r),
-            false => 0.0,
-        };
-        at(Side::Near, 1.0 - turned, exit.offset.length())
-            + at(Side::Far, turned, exit.offset.truncate().length())
-    }
-
-    /// The distance within which next to all light leaves (m).
-    pub(crate) fn reach(&self, share: f32) -> f32 {
-        self.nearest.sample(share).min(REACH * self.width())
     }
 
     /// R or T (m⁻²) at a distance.
@@ -257,7 +289,7 @@ mod tests {
                 offset: Vec3::new(0.6 * r, -0.8 * r, 0.0),
                 normal: Vec3::Z,
             };
-            let off = slab.value(&exit) / half_space.value(r) - 1.0;
+            let off = slab.exitance(&exit) / half_space.value(r) - 1.0;
             assert!(off.abs() < 1e-4, "{r}: {off}");
         }
         assert!((slab.nearest.total() / half_space.total() - 1.0).abs() < 1e-5);

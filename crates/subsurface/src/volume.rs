@@ -2,7 +2,7 @@
 
 use crate::tracking::Tracking;
 use etalon_params::questions::Question;
-use etalon_params::{Params, Value};
+use etalon_params::{ParameterKind, Params, Value};
 use etalon_spectrum::Spectrum;
 use etalon_transport::{Build, SpectrumKind, TextureId, refuse_varying};
 
@@ -73,7 +73,7 @@ pub(crate) fn tracking(params: &Params<'_>, usual: Tracking) -> Tracking {
 /// The radiance of a medium that emits: `emission`, if it is given.
 pub(crate) fn emission(params: &Params<'_>, build: &mut dyn Build) -> Option<TextureId> {
     params.note("emission", || Question {
-        kind: "a spectrum or texture".to_owned(),
+        kind: ParameterKind::SpectrumOrTexture,
         ..Question::default()
     });
     let given = params.has("emission");

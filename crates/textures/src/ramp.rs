@@ -10,7 +10,7 @@ use crate::reader::Use;
 use crate::spectra::numbers;
 use crate::texture::TextureModel;
 use crate::{Texture, TextureReader, TextureTable};
-use etalon_params::Params;
+use etalon_params::{ParameterKind, Params};
 use etalon_spectrum::Spectrum;
 use etalon_transport::{Shapes, SpectrumKind, TextureId, TexturePoint};
 use glam::{DVec3, Vec3, Vec4};
@@ -125,7 +125,7 @@ pub(crate) fn read(
     let positions: Vec<f64> = match params.has("positions") {
         true => numbers(params, "positions")?,
         false => {
-            params.note_default("positions", "a list of numbers", "");
+            params.note_default("positions", ParameterKind::Words("a list of numbers"), "");
             even()
         }
     };

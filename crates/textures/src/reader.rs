@@ -13,7 +13,9 @@
 
 use crate::{Constant, Texture, TextureTable};
 use etalon_params::questions::Question;
-use etalon_params::{Class, Diagnostic, Diagnostics, Node, Params, Property, Span, Value};
+use etalon_params::{
+    Class, Diagnostic, Diagnostics, Node, ParameterKind, Params, Property, Span, Value,
+};
 use etalon_params::{DVec3, SpectrumText};
 use etalon_spectrum::{Spectrum, SpectrumError, refractive_index};
 use etalon_transport::{Assets, SpectrumKind, TextureId};
@@ -94,7 +96,7 @@ impl TextureReader<'_> {
         purpose: Use,
     ) -> TextureId {
         params.note(name, || Question {
-            kind: "a spectrum or texture".to_owned(),
+            kind: ParameterKind::SpectrumOrTexture,
             default: default.map_or(String::new(), |number| number.to_string()),
             ..Question::default()
         });

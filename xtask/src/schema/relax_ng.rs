@@ -6,7 +6,7 @@
 use super::xml::Xml;
 use crate::plugins::Described;
 use etalon_formats::mitsuba::tags::{OPERATIONS, TAGS, Tag};
-use etalon_params::{Class, ignored};
+use etalon_params::{Class, ParameterKind, ignored};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the schema says of itself.
@@ -249,16 +249,34 @@ fn objects(xml: &mut Xml, class: Class, names: Option<&str>) {
     }
 }
 
-/// The tags by which a value of this kind is given, in the words of [`etalon_params::questions::Question`].
-fn tags_of(kind: &str) -> Vec<&'static str> {
-    let bare = kind.trim_start_matches("an ").trim_start_matches("a ");
-    match bare {
-        "number" => vec!["float", "integer", "animation"],
-        "integer" => vec!["integer"],
-        "string" => vec!["string"],
-        "transform" | "transform or an animation" => vec!["transform", "animation"],
-        "point or vector" => vec!["point", "vector", "animation"],
-        "spectrum or texture" => vec![
+/// Those of any value.
+const ALL_TAGS: [&str; 14] = [
+    "float",
+    "integer",
+    "boolean",
+    "string",
+    "point",
+    "vector",
+    "rgb",
+    "srgb",
+    "blackbody",
+    "spectrum",
+    "transform",
+    "animation",
+    "texture",
+    "volume",
+];
+
+/// The tags by which a value of this kind is given.
+fn tags_of(kind: ParameterKind) -> &'static [&'static str] {
+    match kind {
+        ParameterKind::Number => &["float", "integer", "animation"],
+        ParameterKind::Integer => &["integer"],
+        ParameterKind::Boolean => &["boolean"],
+        ParameterKind::String => &["string"],
+        ParameterKind::Vector => &["point", "vector", "animation"],
+        ParameterKind::Transform | ParameterKind::Motion => &["transform", "animation"],
+        ParameterKind::SpectrumOrTexture => &[
             "float",
             "integer",
             "rgb",
@@ -269,23 +287,7 @@ fn tags_of(kind: &str) -> Vec<&'static str> {
             "texture",
             "volume",
         ],
-        _ if bare.starts_with("boolean") => vec!["boolean"],
-        _ => vec![
-            "float",
-            "integer",
-            "boolean",
-            "string",
-            "point",
-            "vector",
-            "rgb",
-            "srgb",
-            "blackbody",
-            "spectrum",
-            "transform",
-            "animation",
-            "texture",
-            "volume",
-        ],
+        ParameterKind::Unsaid | ParameterKind::Nested | ParameterKind::Words(_) => &ALL_TAGS,
     }
 }
 
@@ -317,7 +319,7 @@ fn of_ignored(class: Class, plugins: &[String]) -> Slots {
         .collect();
     match names.is_empty() {
         true => Slots::new(),
-        false => Slots::from([(tags_of(""), names)]),
+        false => Slots::from([(ALL_TAGS.to_vec(), names)]),
     }
 }
 
@@ -351,10 +353,12 @@ fn parameters(described: &Described<'_>) -> Slots {
     let mut parameters = of_ignored(described.class, &described.plugin.names);
     for (name, heard) in &described.rows {
         if !name.starts_with('<') {
-            let kinds = heard.kinds.iter().filter(|kind| !kind.is_empty());
-            let tags: BTreeSet<&str> = match heard.question.kind.as_str() {
-                "" => tags_of("").into_iter().collect(),
-                _ => kinds.flat_map(|kind| tags_of(kind)).collect(),
+            let kinds = heard.kinds.iter().copied();
+            let tags: BTreeSet<&str> = match heard.question.kind {
+                ParameterKind::Unsaid => ALL_TAGS.into(),
+                _ => (kinds.filter(|kind| *kind != ParameterKind::Unsaid))
+                    .flat_map(|kind| tags_of(kind).iter().copied())
+                    .collect(),
             };
             let tags = tags.into_iter().collect();
             (parameters.entry(tags).or_default()).insert(name.clone());

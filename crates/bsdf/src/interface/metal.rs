@@ -4,7 +4,7 @@ use crate::TextureSite;
 use crate::interface::relative_index::{held_table, number_from_params};
 use crate::lane_bsdf_at_point::spectra;
 use etalon_math::lane::Lane;
-use etalon_params::{Diagnostic, Params, Property, Value};
+use etalon_params::{Diagnostic, ParameterKind, Params, Property, Value};
 use etalon_spectrum::{Spectrum, conductor_colour, conductors, parse_spd};
 use etalon_transport::{Build, SpectrumKind, TextureId, Textures};
 
@@ -34,7 +34,7 @@ impl Metal {
         exterior: f64,
     ) -> Option<Self> {
         let inverse_exterior = (1.0 / exterior) as f32;
-        params.note_default("material", "a string", "none");
+        params.note_default("material", ParameterKind::String, "none");
         let name = params.string("material").unwrap_or("none");
         if name == "none" {
             let [eta, k] = match of_colours(params) {

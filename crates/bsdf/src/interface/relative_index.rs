@@ -4,7 +4,9 @@
 //! model can disperse they may also be a spectrum, or Cauchy's or Sellmeier's coefficients as a
 //! string (an extension: see `docs/extensions.md`).
 
-use etalon_params::{Class, Diagnostic, Params, Property, Span, SpectrumText, Value};
+use etalon_params::{
+    Class, Diagnostic, ParameterKind, Params, Property, Span, SpectrumText, Value,
+};
 use etalon_spectrum::{
     LAMBDA_MAX, LAMBDA_MIN, RefractiveIndex, Spectrum, SpectrumError, refractive_index,
 };
@@ -134,7 +136,7 @@ fn unknown_name(params: &Params<'_>, property: &Property, word: &str) {
 
 /// One index for all wavelengths: a number or a name; `default` is a name.
 pub fn number_from_params(params: &Params<'_>, name: &str, default: &str) -> Option<f64> {
-    params.note_default(name, "a number or a name", default);
+    params.note_default(name, ParameterKind::Words("a number or a name"), default);
     let Some(property) = params.property(name) else {
         return named(default);
     };
@@ -168,7 +170,11 @@ pub fn number_from_params(params: &Params<'_>, name: &str, default: &str) -> Opt
 
 /// A number, a name, a formula or a spectrum.
 fn read(params: &Params<'_>, build: &mut dyn Build, name: &str, default: &str) -> Option<Given> {
-    params.note_default(name, "a number, a name, a formula or a spectrum", default);
+    params.note_default(
+        name,
+        ParameterKind::Words("a number, a name, a formula or a spectrum"),
+        default,
+    );
     let Some(property) = params.property(name) else {
         return named(default).map(Given::Number);
     };

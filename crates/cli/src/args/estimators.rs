@@ -2,6 +2,7 @@
 
 use crate::arg_values::{parse_define, parse_light_chooser, parse_seconds, parse_seed, whole};
 use clap::Args;
+use etalon_render::resources::MOST_THREADS;
 use etalon_scene::LightSamplerKind;
 use std::path::PathBuf;
 
@@ -53,7 +54,7 @@ pub struct EstimatorsArgs {
         allow_negative_numbers = true)]
     pub seed: u64,
     /// Threads [default: one per processor].
-    #[arg(long, value_name = "T", value_parser = whole::<1, 1024>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", value_parser = whole::<1, MOST_THREADS>, allow_negative_numbers = true)]
     pub threads: Option<u32>,
     /// Give a scene parameter ($key) a value.
     #[arg(short = 'D', value_name = "key=value", value_parser = parse_define)]

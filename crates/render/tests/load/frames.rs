@@ -1,9 +1,12 @@
 //! Lights that depend on scene time count from a frame's moment.
 
-use etalon_render::pipeline::{LoadOptions, load_text};
+use etalon_formats::mitsuba;
+use etalon_render::pipeline::{LoadOptions, assets, compile};
 use etalon_spectrum::Wavelengths;
 use etalon_transport::{Lights, World};
 use glam::{Vec3, Vec4};
+use std::path::Path;
+use std::time::Instant;
 
 /// The sky overhead of a frame, through a shutter that opens at the moment `open` of it.
 fn sky(open: f64, time: f64) -> Vec4 {
@@ -17,7 +20,10 @@ fn sky(open: f64, time: f64) -> Vec4 {
         time,
         ..LoadOptions::default()
     };
-    let loaded = load_text(&text, &options).expect("a scene without mistakes");
+    let read = mitsuba::read_text(&text, &options.reading());
+    let (files, path) = (assets(&read), Path::new(mitsuba::TEXT));
+    let loaded = compile(read, &files, path, &options, Instant::now());
+    let loaded = loaded.unwrap_or_else(|error| panic!("{:?}", error.diagnostics));
     let at = Wavelengths {
         lambda: Vec4::new(420.0, 500.0, 580.0, 660.0),
         density: Vec4::ONE,

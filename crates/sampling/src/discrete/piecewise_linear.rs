@@ -3,7 +3,7 @@
 use super::{TableError, cell_of, check_weights, normalised_sums};
 
 /// A piecewise linear density on [x₀, xₙ].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PiecewiseLinear {
     abscissae: Vec<f64>,
     /// The density at each abscissa.

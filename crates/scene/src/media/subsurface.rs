@@ -22,7 +22,9 @@ use std::sync::Arc;
 
 /// Names of the subsurface plugins.
 fn built() -> impl Iterator<Item = &'static str> + Clone {
-    ["randomwalk"].into_iter().chain(Profile::BUILT)
+    ["randomwalk"]
+        .into_iter()
+        .chain(Profile::BUILT.iter().copied())
 }
 
 /// The boundary's description, and the medium inside. `None` after a mistake.
