@@ -131,7 +131,7 @@ impl Scene {
     /// or 'wall.bsdf.reflectance.data', are in place of those in files. Vertices that move get new normals, unless these are given.
     fn with_parameters(&self, py: Python<'_>, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
         let listing = Listing::of(&self.loaded.described.root);
-        let files = || self.origin.files(&self.options);
+        let files = || py.detach(|| self.origin.files(&self.options));
         let changes = changes::read(parameters, &listing, &files)?;
         Self::compile(py, self.origin.with(changes), self.options.clone())
     }

@@ -104,7 +104,8 @@ impl<'a, 'py> ChangedFiles<'a, 'py> {
         let (Some(format), Some(name)) = (mesh_format(node), file_name(node)) else {
             return mesh::mesh(parts, None);
         };
-        let old = self.files().mesh(format, name);
+        let (py, files) = (parts[0].1.py(), self.files());
+        let old = py.detach(|| files.mesh(format, name));
         let old = old.map_err(|error| (parts[0].0.clone(), error.message))?;
         mesh::mesh(parts, Some(&old))
     }
