@@ -10,8 +10,8 @@
 //! K. Bala, S. Marschner, A radiative transfer framework for rendering materials with anisotropic structure, 2010, section 6). For D = ⅓ I it is
 //! [`crate::dipole`].
 
-use crate::diffusion::{Boundary, LaneProfile, Matter, ProfileModel, Radial};
 use crate::dipole::{Dipole, DipolePair, flux};
+use crate::profile_model::{Boundary, LaneProfile, Matter, ProfileModel, Radial};
 use crate::sggx::symmetric_matrix;
 use core::f32::consts::PI;
 use etalon_math::float;

@@ -14,7 +14,7 @@
 //! for 64 albedos is computed when a scene is read.
 
 use crate::HenyeyGreenstein;
-use crate::diffusion::{Boundary, Matter, ProfileModel, Radial};
+use crate::profile_model::{Boundary, Matter, ProfileModel, Radial};
 use crate::rotational::Rotational;
 use core::f64::consts::{PI, TAU};
 use etalon_math::{float64, fresnel};

@@ -9,7 +9,7 @@
 //! with the albedo A of the surface, and ℓ = 1/σ't (P. H. Christensen, B. Burley, Approximate reflectance profiles for efficient
 //! subsurface scattering, 2015, eqs. 3, 5 and 6). 2πr R is a mixture of two exponential densities, which are sampled exactly.
 
-use crate::diffusion::{Boundary, Matter, ProfileModel, Radial};
+use crate::profile_model::{Boundary, Matter, ProfileModel, Radial};
 use crate::surface_albedo::inside_boundary;
 use core::f32::consts::PI;
 use etalon_math::float;

@@ -9,7 +9,7 @@
 //! S. R. Marschner, M. Levoy, P. Hanrahan, A practical model for subsurface light transport, 2001, eqs. 3 and 4). What
 //! leaves beyond a distance is known in closed form, ½α' Σ z e^(−σtr d)/d, and inverted by Newton's method.
 
-use crate::diffusion::{Boundary, Matter, ProfileModel, Radial};
+use crate::profile_model::{Boundary, Matter, ProfileModel, Radial};
 use core::f32::consts::PI;
 use etalon_math::float;
 

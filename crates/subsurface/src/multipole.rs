@@ -18,8 +18,8 @@
 //! with the sign −(−1)ⁿ for T, and what leaves in all is known in closed form. A source deeper than the middle of the slab would
 //! be out of place: in thin sheets zᵣ is ½d.
 
-use crate::diffusion::{Boundary, LaneProfile, Matter, ProfileModel, Radial};
 use crate::dipole::{Dipole, DipolePair, flux};
+use crate::profile_model::{Boundary, LaneProfile, Matter, ProfileModel, Radial};
 use core::f32::consts::PI;
 use etalon_math::{bessel_k0, float};
 use etalon_params::Params;

@@ -3,9 +3,9 @@
 use crate::anisotropic_dipole::Grain;
 use crate::beam_diffusion::BeamDiffusion;
 use crate::burley::NormalisedDiffusion;
-use crate::diffusion::{Boundary, LaneProfile, Matter, ProfileModel, Radial};
 use crate::dipole::DiffusionDipole;
 use crate::multipole::Slab;
+use crate::profile_model::{Boundary, LaneProfile, Matter, ProfileModel, Radial};
 use crate::surface_albedo::inside_boundary;
 use core::f32::consts::FRAC_1_PI;
 use etalon_math::fresnel;

@@ -4,7 +4,7 @@ use super::arrays;
 use super::file_arrays::FileArray;
 use super::mistakes::Mistakes;
 use super::object::{self, Entry, Ids, Object};
-use super::{Keys, NAME, SceneDict, classes, mesh, values};
+use super::{Keys, NAME, SceneDict, mesh, plugins, values};
 use etalon_formats::mitsuba::{self, SceneInMemory};
 use etalon_formats::{embedded_name, ply};
 use pyo3::prelude::*;
@@ -185,9 +185,9 @@ impl<'a, 'py> Elements<'a, 'py> {
         let is_mesh = object.kind == "mesh";
         let kind = if is_mesh { "ply" } else { object.kind.as_str() };
         let has_filename = object.value("filename").is_some();
-        let Some(class) = classes::class(kind, has_filename) else {
+        let Some(class) = plugins::class(kind, has_filename) else {
             self.mistakes
-                .push(&object.path_of("type"), classes::unknown(kind));
+                .push(&object.path_of("type"), plugins::unknown(kind));
             return Ok(());
         };
         let mut attributes = vec![("type", kind), ("name", key)];

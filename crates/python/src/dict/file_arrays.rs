@@ -1,6 +1,6 @@
 //! Which plugins take an array in place of a file.
 
-use super::classes;
+use super::plugins;
 use serde::Deserialize;
 
 /// What an array is the contents of.
@@ -16,7 +16,7 @@ pub(crate) enum FileArray {
 impl FileArray {
     /// What a plugin's file holds.
     pub(crate) fn of(plugin: &str) -> Option<Self> {
-        classes::plugin(plugin)?.file
+        plugins::plugin(plugin)?.file
     }
 
     /// That of a plugin's key, if it is one for arrays.

@@ -6,13 +6,13 @@
 mod arrays;
 mod changed_files;
 pub(crate) mod changes;
-mod classes;
 mod elements;
 pub(crate) mod file_arrays;
 mod keys;
 pub(crate) mod mesh;
 mod mistakes;
 mod object;
+mod plugins;
 mod values;
 
 pub(crate) use keys::{Keys, NAME};

@@ -10,7 +10,7 @@
 //! - `rough`: a `roughdielectric`.
 //!
 //! The diffusion profiles (`dipole` and others) are the same, with a profile in place of the walk
-//! (`etalon_subsurface::diffusion`).
+//! (`etalon_subsurface::profiles`).
 
 use crate::builder::Builder;
 use crate::surfaces::Surfaces;
