@@ -44,7 +44,7 @@ fn positive(params: &Params<'_>, name: &str, what: &str) -> Option<f64> {
 
 /// Whether the focal length is one of metres; with a unit, as `50mm`, it is Mitsuba's, which says the field of view.
 fn is_in_metres(params: &Params<'_>) -> bool {
-    let given = (params.node.properties.iter()).find(|p| p.name == "focal_length");
+    let given = params.node.property("focal_length");
     given.is_some_and(|p| matches!(p.value, Value::Float(_) | Value::Integer(_)))
 }
 

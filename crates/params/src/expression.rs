@@ -19,7 +19,7 @@ impl Params<'_> {
         default: f64,
         variables: &[&str],
     ) -> Option<Expression> {
-        let property = self.node.properties.iter().find(|p| p.name == name);
+        let property = self.node.property(name);
         if property.is_some_and(|property| matches!(property.value, Value::String(_))) {
             return self.expression(name, variables);
         }
@@ -34,7 +34,7 @@ impl Params<'_> {
 
     /// Records what is wrong with an expression of some variables.
     fn report(&self, name: &str, variables: &[&str], error: &ExpressionError) {
-        let property = (self.node.properties.iter()).find(|p| p.name == name);
+        let property = self.node.property(name);
         let span = property.map_or(self.node.plugin.span, |p| p.span);
         let (message, character) = (&error.message, error.character);
         let message = format!("{message} at character {character} of `{name}`");

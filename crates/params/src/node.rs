@@ -180,6 +180,11 @@ impl Node {
         format!("{} `{name}`", if vowel { "an" } else { "a" })
     }
 
+    /// The property of this name (does not mark it).
+    pub fn property(&self, name: &str) -> Option<&Property> {
+        self.properties.iter().find(|p| p.name == name)
+    }
+
     /// The same with these properties, in the same place.
     pub fn with_properties(&self, properties: Vec<Property>) -> Self {
         Self {

@@ -53,7 +53,7 @@ impl<'a> Params<'a> {
         if !self.known.borrow().iter().any(|k| k == name) {
             self.known.borrow_mut().push(name.to_owned());
         }
-        let found = self.node.properties.iter().find(|p| p.name == name)?;
+        let found = self.node.property(name)?;
         found.mark_used();
         Some(found)
     }
@@ -61,7 +61,7 @@ impl<'a> Params<'a> {
     /// Whether the property is present (does not mark it).
     pub fn has(&self, name: &str) -> bool {
         self.note(name, Question::default);
-        self.node.properties.iter().any(|p| p.name == name)
+        self.node.property(name).is_some()
     }
 
     /// Whether the property is the number 0, or not there (does not mark it).
@@ -72,14 +72,14 @@ impl<'a> Params<'a> {
 
     /// Records an error at the value of a property (or at the plugin's name if it is absent).
     pub fn error_at(&self, name: &str, message: impl Into<String>) {
-        let property = self.node.properties.iter().find(|p| p.name == name);
+        let property = self.node.property(name);
         let span = property.map_or(self.node.plugin.span, |p| p.span);
         self.diagnostics.push(Diagnostic::error(span, message));
     }
 
     /// The same with what helps.
     pub fn error_with_help(&self, name: &str, message: &str, help: &str) {
-        let property = self.node.properties.iter().find(|p| p.name == name);
+        let property = self.node.property(name);
         let span = property.map_or(self.node.plugin.span, |p| p.span);
         (self.diagnostics).push(Diagnostic::error(span, message).help(help));
     }
@@ -178,7 +178,7 @@ impl<'a> Params<'a> {
 
     /// Records that a value is not accepted.
     pub fn refuse(&self, name: &str, value: impl Display, what: &str) {
-        let property = self.node.properties.iter().find(|p| p.name == name);
+        let property = self.node.property(name);
         let span = property.map_or(self.node.plugin.span, |p| p.span);
         self.diagnostics.push(
             Diagnostic::error(
@@ -242,7 +242,7 @@ impl<'a> Params<'a> {
         if let Some(found) = choices.iter().find(|c| c.eq_ignore_ascii_case(word)) {
             return found;
         }
-        let property = self.node.properties.iter().find(|p| p.name == name);
+        let property = self.node.property(name);
         let span = property.map_or(self.node.plugin.span, |p| p.span);
         self.diagnostics.push(
             Diagnostic::error(span, format!("`{word}` is not a value of `{name}`"))
@@ -298,7 +298,7 @@ impl<'a> Params<'a> {
 
     /// Records that a transform is projective, singular or not finite.
     pub fn cannot_be_undone(&self, name: &str) {
-        let property = self.node.properties.iter().find(|p| p.name == name);
+        let property = self.node.property(name);
         let span = property.map_or(self.node.plugin.span, |p| p.span);
         let diagnostic = Diagnostic::error(span, format!("`{name}` cannot be undone"))
             .label("flattens space, is projective, or is not finite")

@@ -76,9 +76,8 @@ fn of_raster<'py>(py: Python<'py>, raster: &Raster, raw: bool) -> PyResult<Bound
 }
 
 fn is_raw(node: &Node) -> bool {
-    let mut properties = node.properties.iter();
-    properties
-        .any(|property| property.name == "raw" && matches!(property.value, Value::Boolean(true)))
+    let raw = node.property("raw");
+    raw.is_some_and(|raw| matches!(raw.value, Value::Boolean(true)))
 }
 
 /// An array of this shape, which may have a last axis of 1.

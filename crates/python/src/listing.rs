@@ -102,8 +102,7 @@ pub(crate) const FILE: &str = "filename";
 
 /// The name of an object's file.
 pub(crate) fn file_name(node: &Node) -> Option<&str> {
-    let mut properties = node.properties.iter();
-    match &properties.find(|property| property.name == FILE)?.value {
+    match &node.property(FILE)?.value {
         Value::String(name) => Some(name),
         _ => None,
     }

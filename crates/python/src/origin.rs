@@ -3,7 +3,7 @@
 use crate::dict::{Keys, SceneDict};
 use crate::listing::{Change, Contents, Listing, changed, file_name, split};
 use etalon_formats::{FileAssets, ReadOutcome, mitsuba};
-use etalon_params::{Diagnostic, Value};
+use etalon_params::{Diagnostic, Node, Value};
 use etalon_render::pipeline::{self, LoadError, LoadOptions, Loaded};
 use etalon_render::scene_hash;
 use etalon_transport::Assets;
@@ -117,20 +117,8 @@ impl Origin {
         let mut assets = pipeline::assets(&read);
         match (kept, &read.document) {
             (Some(kept), _) => assets = assets.holding(kept.files.clone()),
-            (None, Some(document)) if self.arrays().next().is_some() => {
-                // Those files are the scene's all the same, and may be asked for when they are gone.
-                let listing = Listing::of(&document.root);
-                for change in self
-                    .changes
-                    .iter()
-                    .filter(|change| change.contents.is_some())
-                {
-                    let object = split(&change.path).and_then(|(path, _)| listing.object(path));
-                    let _ =
-                        (object.and_then(|node| file_name(node))).map(|name| assets.bytes(name));
-                }
-            }
-            _ => {}
+            (None, Some(document)) => self.count_replaced(&document.root, &assets),
+            (None, None) => {}
         }
         for (name, contents) in self.arrays() {
             let name = name.to_owned();
@@ -140,6 +128,25 @@ impl Origin {
             };
         }
         (read, assets)
+    }
+
+    /// Has the files count as used that arrays are in place of: they are the scene's all the same, and may be asked for when they are gone.
+    fn count_replaced(&self, root: &Arc<Node>, assets: &FileAssets) {
+        if self.arrays().next().is_none() {
+            return;
+        }
+        let listing = Listing::of(root);
+        for change in self
+            .changes
+            .iter()
+            .filter(|change| change.contents.is_some())
+        {
+            let object = split(&change.path).and_then(|(path, _)| listing.object(path));
+            if let Some(name) = object.and_then(|node| file_name(node)) {
+                // One that is not there is told of where it is needed.
+                let _ = assets.open(name);
+            }
+        }
     }
 
     /// What is in place of files, by their names.

@@ -4,7 +4,7 @@ import etalon as et
 import numpy as np
 import pytest
 from dict_scenes import PAIRS, assert_refused, pixels, scene, scene_xml, with_bsdf
-from written_files import write_pfm, write_png, write_vol
+from written_files import write_pfm, write_png, write_serialized, write_vol
 
 SHEET = {
     "vertices": np.array([[-1, 0, -1], [1, 0, -1], [1, 0.25, 1], [-1, 0.25, 1]], np.float32),
@@ -118,6 +118,20 @@ def test_meshes_of_files_stay_what_they_are(tmp_path):
     other = loaded(OBJ.replace("-0.8", "-1.2"))
     assert np.abs(pixels(deep) - pixels(other)).max() < 1e-5
     assert not np.array_equal(pixels(deep), pixels(base))
+
+
+def test_a_mesh_of_many_in_a_file_is_that_of_its_index(tmp_path):
+    vertices, faces = SHEET["vertices"], SHEET["faces"]
+    write_serialized(tmp_path / "a.serialized", [(vertices[:3], faces[:1]), (vertices * 0.5, faces), (vertices, faces)])
+    bsdf = {"type": "twosided", "inner": {"type": "diffuse"}}
+    shape = {"type": "serialized", "filename": tmp_path / "a.serialized", "bsdf": bsdf}
+    first = et.load_dict(scene(ball=shape)).parameters(arrays=True)
+    assert first["ball.faces"].tolist() == [[0, 1, 2]]
+    base = et.load_dict(scene(ball={**shape, "shape_index": 1}))
+    assert np.array_equal(base.parameters(arrays=True)["ball.vertices"], vertices * 0.5)
+    last = pixels(et.load_dict(scene(ball={**shape, "shape_index": 2})))
+    assert np.array_equal(pixels(base.with_parameters({"ball.vertices": vertices})), last)
+    assert not np.array_equal(pixels(base), last)
 
 
 def test_pictures_can_be_others_of_any_size():

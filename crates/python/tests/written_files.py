@@ -32,3 +32,14 @@ def write_vol(path, array):
     z, y, x, channels = array.shape
     header = b"VOL\x03" + np.array([1, x, y, z, channels], "<i4").tobytes()
     path.write_bytes(header + np.array([0, 0, 0, 1, 1, 1], "<f4").tobytes() + array.astype("<f4").tobytes())
+
+
+def write_serialized(path, meshes):
+    """Meshes of vertices and faces, one after the other, as Mitsuba writes them (version 4, floats)."""
+    contents, starts = b"", []
+    for vertices, faces in meshes:
+        starts.append(len(contents))
+        counts = struct.pack("<I", 0x1000) + b"\0" + struct.pack("<QQ", len(vertices), len(faces))
+        body = counts + np.asarray(vertices, "<f4").tobytes() + np.asarray(faces, "<u4").tobytes()
+        contents += struct.pack("<HH", 0x041C, 4) + zlib.compress(body)
+    path.write_bytes(contents + struct.pack(f"<{len(starts)}QI", *starts, len(starts)))

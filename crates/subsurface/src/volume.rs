@@ -14,7 +14,7 @@ pub(crate) fn constant(
     kind: SpectrumKind,
     build: &mut dyn Build,
 ) -> TextureId {
-    let property = params.node.properties.iter().find(|p| p.name == name);
+    let property = params.node.property(name);
     match property.map(|p| &p.value) {
         // As in Mitsuba, a reflectance spectrum for any quantity; none exists for a colour above 1.
         Some(Value::Rgb(rgb)) if rgb.max_element() <= 1.0 => {

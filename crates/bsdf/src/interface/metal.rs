@@ -85,7 +85,7 @@ impl Metal {
 
 /// `eta` and `k` where one of them is a colour and the other a colour or a number.
 fn of_colours(params: &Params<'_>) -> Option<(Spectrum, Spectrum)> {
-    let find = |name| params.node.properties.iter().find(|p| p.name == name);
+    let find = |name| params.node.property(name);
     let triple = |property: Option<&Property>, default| match property.map(|p| &p.value) {
         None => Some([default; 3]),
         Some(Value::Float(x)) => Some([*x; 3]),
@@ -131,7 +131,7 @@ fn from_file(
     part: &str,
 ) -> Option<Spectrum> {
     let path = file(name, part);
-    let material = params.node.properties.iter().find(|p| p.name == "material");
+    let material = params.node.property("material");
     let span = material.map_or(params.node.plugin.span, |p| p.span);
     let refuse = |message: String, help: String| {
         let error = Diagnostic::error(span, message).help(help);

@@ -42,8 +42,7 @@ pub(crate) fn read(
             mistakes.push(&path, diagnostic.suggest(object, scene.paths()));
             continue;
         };
-        let mut properties = node.properties.iter();
-        let old = properties.find(|p| p.name == key).map(|p| &p.value);
+        let old = node.property(key).map(|property| &property.value);
         if arrays.take((object, node), key, &value, &mut mistakes)? {
             continue;
         }

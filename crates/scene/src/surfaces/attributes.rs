@@ -58,7 +58,7 @@ impl RequiredAttributes {
         place: Span,
         diagnostics: &Diagnostics,
     ) {
-        let named = texture.properties.iter().find(|p| p.name == "name");
+        let named = texture.property("name");
         let Some((name, span)) = named.and_then(|p| match &p.value {
             Value::String(name) => Some((name, p.span)),
             _ => None,

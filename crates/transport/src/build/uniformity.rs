@@ -5,7 +5,7 @@ use etalon_params::{Class, Diagnostic, Node, Params, Value};
 
 /// Whether the value of `name` is a texture that varies in space.
 pub fn is_varying(params: &Params<'_>, name: &str, build: &dyn Build) -> bool {
-    let property = params.node.properties.iter().find(|p| p.name == name);
+    let property = params.node.property(name);
     matches!(property.map(|p| &p.value), Some(Value::Object(node)) if varies(node, build))
 }
 

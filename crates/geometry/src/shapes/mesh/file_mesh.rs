@@ -13,15 +13,12 @@ pub fn mesh_format(shape: &Node) -> Option<MeshFormat> {
         (Class::Shape, "obj") => Some(MeshFormat::Obj),
         (Class::Shape, "ply") => Some(MeshFormat::Ply),
         (Class::Shape, "serialized") => {
-            let mut given = shape.properties.iter();
-            let index = match given.find(|property| property.name == "shape_index") {
-                Some(property) => match property.value {
-                    Value::Integer(index) => u32::try_from(index).ok()?,
-                    _ => return None,
-                },
+            let shape_index = match shape.property("shape_index").map(|given| &given.value) {
+                Some(Value::Integer(index)) => u32::try_from(*index).ok()?,
+                Some(_) => return None,
                 None => 0,
             };
-            Some(MeshFormat::Serialized { shape_index: index })
+            Some(MeshFormat::Serialized { shape_index })
         }
         _ => None,
     }
@@ -29,38 +26,31 @@ pub fn mesh_format(shape: &Node) -> Option<MeshFormat> {
 
 /// Reads an `obj`; v is flipped unless the scene says otherwise, as in Mitsuba.
 pub(crate) fn obj(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
-    read(params, build, Some(MeshFormat::Obj), Some(true))
+    read(params, build, Some(true))
 }
 
 /// Reads a `ply`.
 pub(crate) fn ply(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
-    read(params, build, Some(MeshFormat::Ply), Some(false))
+    read(params, build, Some(false))
 }
 
 /// Reads a `serialized`; as in Mitsuba, its texture coordinates stand as they are.
 pub(crate) fn serialized(params: &Params<'_>, build: &mut dyn Build) -> Option<Mesh> {
     let index = params.integer_or("shape_index", 0);
-    let shape_index = u32::try_from(index).ok();
-    if shape_index.is_none() {
+    if u32::try_from(index).is_err() {
         params.refuse("shape_index", index, "an integer from 0 to 4294967295");
     }
-    let format = shape_index.map(|shape_index| MeshFormat::Serialized { shape_index });
-    read(params, build, format, None)
+    read(params, build, None)
 }
 
-/// Reads a mesh; without a format, only looks at the parameters.
-fn read(
-    params: &Params<'_>,
-    build: &mut dyn Build,
-    format: Option<MeshFormat>,
-    flip_tex_coords: Option<bool>,
-) -> Option<Mesh> {
+/// Reads a mesh; if nothing says which of its file, only looks at the parameters.
+fn read(params: &Params<'_>, build: &mut dyn Build, flip_tex_coords: Option<bool>) -> Option<Mesh> {
     let placement = Placement::from_params(params);
     let face_normals = params.boolean_or("face_normals", false);
     let flip_normals = read_flip(params);
     let flip_tex_coords =
         flip_tex_coords.is_some_and(|default| params.boolean_or("flip_tex_coords", default));
-    let (filename, data) = contents(params, build, format, "the mesh file")?;
+    let (filename, data) = contents(params, build, mesh_format(params.node), "the mesh file")?;
     let span = span_of_filename(params);
     for note in notes(&data, face_normals || data.face_normals) {
         let message = format!("`{filename}`: {note}");
